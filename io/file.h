@@ -1,0 +1,38 @@
+/* file.h: whole files in, and atomic files out.
+ *
+ * Reading checks sizes before taking memory and refuses what is not a regular file.  Writing goes to a
+ * temporary name beside the target, is fsynced, and is renamed only when complete, so that no reader
+ * ever sees half a file and a failure leaves the old one untouched.
+ * SPDX-License-Identifier: MIT */
+#pragma once
+
+#include <stddef.h>
+#include <stdio.h>
+
+#include "facet/facet.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Files above this many bytes are refused, with FACET_NO_MEMORY [byte]. */
+#define FILE_SIZE_CAP ((size_t)2 << 30)
+
+/* The whole file, with one 0 byte after its end that *size does not count.  The caller frees *bytes. */
+facet_status file_read(const char *path, unsigned char **bytes, size_t *size, facet_error *why);
+
+/* A file being written.  Write to `stream`, then commit (rename over `path`) or discard (remove). */
+typedef struct file_writer {
+    FILE *stream;
+    char *path;
+    char *temporary;
+} file_writer;
+
+facet_status file_writer_open(file_writer *writer, const char *path, facet_error *why);
+/* Flushes, checks every earlier write, fsyncs, closes and renames.  On failure the temporary is removed. */
+facet_status file_writer_commit(file_writer *writer, facet_error *why);
+void file_writer_discard(file_writer *writer);
+
+#ifdef __cplusplus
+}
+#endif
