@@ -1,0 +1,86 @@
+/* render.h: a scene and settings in, a picture out.
+ *
+ * The picture is a pure function of scene and settings: the same bits for any number of threads, on one
+ * Embree instruction set (settings.isa; render_result.isa tells which was used).
+ * SPDX-License-Identifier: MIT */
+#pragma once
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include "facet/facet.h"
+#include "render/image.h"
+#include "render/scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* How light is found: by rays towards lights, by rays that happen to hit lights, or by both, weighted by
+ * the power heuristic.  All three converge to the same picture; lights that no ray can hit (point, spot,
+ * directional) are always sampled explicitly. */
+typedef enum strategy { STRATEGY_MIS, STRATEGY_EXPLICIT, STRATEGY_IMPLICIT } strategy;
+
+typedef enum sampler_kind { SAMPLER_SOBOL, SAMPLER_RANDOM } sampler_kind;
+
+typedef struct render_progress {
+    uint64_t samples_done, samples_total; /* pixel samples */
+    double seconds;                       /* since the start of rendering */
+    double samples_per_second;
+    double noise;     /* estimated relative standard error of the picture; negative while unknown */
+    double time_left; /* [s], to the nearest of the limits; negative while unknown */
+} render_progress;
+
+typedef struct render_settings {
+    size_t width, height;                    /* of the whole picture [pixel] */
+    size_t crop_x, crop_y, crop_w, crop_h;   /* the part to render; crop_w == 0: all of it */
+    size_t camera;                           /* index into scene.cameras */
+    uint32_t spp;                            /* samples per pixel, >= 1 */
+    uint32_t depth;                          /* most scattering events on a path; 0: lights seen directly */
+    uint32_t n_threads;                      /* 0: one per processor */
+    uint32_t seed;
+    strategy strategy;
+    sampler_kind sampler;
+    const char *isa;                         /* Embree's instruction set: "sse2", "sse4.2", "avx", "avx2", "avx512";
+                                                NULL: avx2 where there is one, else the best */
+    double time_limit;                       /* [s]; 0: none.  Checked between passes over the picture */
+    double noise_target;                     /* stop at this estimated relative error; 0: none */
+    /* Called on the calling thread about ten times a second; false asks for an early end.  May be NULL. */
+    bool (*progress)(void *user, const render_progress *state);
+    void *user;
+} render_settings;
+
+void render_settings_defaults(render_settings *settings);
+
+#define RENDER_MAX_REPORTED 8
+
+/* A sample whose radiance was not finite: it was counted as black. */
+typedef struct bad_sample {
+    uint32_t x, y, sample;
+} bad_sample;
+
+typedef struct render_result {
+    image picture;           /* F32 RGB, crop_w x crop_h, linear radiance */
+    uint32_t spp;            /* samples per pixel reached */
+    bool is_complete;        /* all of settings.spp; false after time, noise or a requested end */
+    uint64_t n_paths, n_rays, n_shadow_rays;
+    uint64_t n_bad;          /* samples that were NaN or infinite */
+    bad_sample bad[RENDER_MAX_REPORTED];
+    double seconds;          /* rendering alone, wall clock */
+    double setup_seconds;    /* acceleration structure and light tables */
+    double noise;            /* as in render_progress */
+    const char *isa;         /* what Embree used; static storage */
+} render_result;
+
+/* Renders.  On success *result holds the picture, which render_result_destroy frees. */
+facet_status render(const scene *s, const render_settings *settings, render_result *result, facet_error *why);
+void render_result_destroy(render_result *result);
+
+/* world_to_camera and world_to_ndc (x and y in [-1,1]) of a camera for a picture of that shape, as row
+ * vectors times 4x4 matrices, for the picture's metadata. */
+void camera_matrices(const camera *c, size_t width, size_t height, float world_to_camera[16], float world_to_ndc[16]);
+
+#ifdef __cplusplus
+}
+#endif
