@@ -1,0 +1,91 @@
+/* kmath_erf.h: the error function, its relatives and inverses, and a ratio of gamma functions, of kmath.h (include
+ * that).
+ * SPDX-License-Identifier: MIT */
+#pragma once
+
+#include "core/kernel/kmath_basic.h"
+#include "core/kernel/kmath_exp.h"
+
+/* erfcx(x) = e^(x^2) erfc(x) (ULP_ERFCX) for x >= 0; smaller x counts as 0.  (1 + 2x) erfcx(x) goes from 1 at 0 to
+ * 2/sqrt(pi) at infinity and is a polynomial in t = (x - c)/(x + c). */
+KERNEL real kerfcx(real x)
+{
+    real a = kclamp(x, 0.0f, FAR_AWAY);
+    real t = (a - ERFCX_CENTRE)/(a + ERFCX_CENTRE);
+    return poly_erfcx(t)/(1.0f + 2.0f*a);
+}
+
+/* W(x) = 1 - sqrt(pi) x erfcx(x) (ULP_MILLS) for x >= 0; smaller x counts as 0.  Positive: 1 at 0, 1/(2 x^2) far out,
+ * where the difference itself would cancel.  Smith masking of Beckmann's distribution is
+ * Lambda(a) = exp(-a^2) W(a)/(2 a sqrt(pi)) [walter07, eq. 27 with its Lambda exact]. */
+KERNEL real kmills_w(real x)
+{
+    real a = kclamp(x, 0.0f, FAR_AWAY);
+    real t = (a - MILLS_CENTRE)/(a + MILLS_CENTRE);
+    return poly_mills(t)/(1.0f + 2.0f*a*a);
+}
+
+/* erfc x = 1 - erf x (ULP_ERFC); 0 for x beyond 9.34 / 26.6 */
+KERNEL real kerfc(real x)
+{
+    real a = kabs(x);
+    real c = kexp_neg_square(a)*kerfcx(a);
+    return x < 0.0f ? 2.0f - c : c;
+}
+
+/* erf x = 2/sqrt(pi) Int_0^x exp(-t^2) dt (ULP_ERF), to relative accuracy near 0 */
+KERNEL real kerf(real x)
+{
+    real a    = kabs(x);
+    real near = a + a*poly_erf(kmin(a*a, 1.0f));
+    real far  = 1.0f - kexp_neg_square(a)*kerfcx(a);
+    return kcopysign(a < 1.0f ? near : far, x);
+}
+
+/* z with erf z = a and erfc z = q = 1 - a, both given because the smaller one has the accurate digits; 0 <= a < 1, q >= REAL_MIN.
+ * With w = -ln(1 - a^2), z/a is a polynomial in w, and z/sqrt(w) one in t = (sqrt w - c)/(sqrt w + c) for large w. */
+KERNEL real erf_inverse(real a, real q)
+{
+    real w    = -klog(q*(1.0f + a));
+    real s    = ksqrt(kmax(w, 0.0f));
+    real t    = (s - ERFINV_CENTRE)/(s + ERFINV_CENTRE);
+    real near = a*poly_erfinv_near(kmin(w, ERFINV_BORDER) - 0.5f*ERFINV_BORDER);
+    real z    = w < ERFINV_BORDER ? near : s*poly_erfinv_far(t);
+#if FACET_REAL_IS_DOUBLE
+    /* The fits give 1e-6; one step of Halley's method, with the residual relative to the derivative
+     * d = (erf z - a) e^(z^2) sqrt(pi)/2 taken from erf or erfc, whichever has the digits, makes it 1e-15. */
+    real_sum z2 = multiply_exactly(z, z);
+    real e      = exp_of_sum(z2.hi, z2.lo);
+    real erf_z  = z + z*poly_erf(kmin(z2.hi, 1.0f));
+    real d_near = (erf_z - a)*e;
+    real d_far  = q*e - kerfcx(z);
+    real d      = HALF_SQRT_PI*(z < 0.75f ? d_near : d_far);
+    z           = z - d/(1.0f + z*d);
+#endif
+    return z;
+}
+
+/* erf^-1(x) (ULP_ERFINV) for |x| < 1; |x| >= 1 gives the value at the largest number below 1, 3.83 / 5.86 */
+KERNEL real kerfinv(real x)
+{
+    real a = kmin(kabs(x), 1.0f - 0.5f*REAL_EPSILON);
+    return kcopysign(erf_inverse(a, 1.0f - a), x);
+}
+
+/* erfc^-1(q) (ULP_ERFCINV) for q in (0, 2): positive below 1, to relative accuracy for tiny q, zero at 1.  Near 1 the result
+ * is only as good as the argument, which is exact there.  q is limited to [REAL_MIN, 2 - REAL_EPSILON]. */
+KERNEL real kerfcinv(real q)
+{
+    real p = kclamp(q, REAL_MIN, 2.0f - REAL_EPSILON);
+    real b = kmin(p, 2.0f - p);
+    return kcopysign(erf_inverse(1.0f - b, b), 1.0f - p);
+}
+
+/* Gamma(s + 1/2)/Gamma(s + 1) (ULP_GAMMA_RATIO) for s >= 1/2, which smaller s counts as; s <= 1e18.  Times sqrt(s + 1/4) it is
+ * 1 - O(1/s^2), and a polynomial in t = (s - c)/(s + c). */
+KERNEL real kgamma_half_ratio(real s)
+{
+    real a = kmax(s, 0.5f);
+    real t = (a - GAMMA_CENTRE)/(a + GAMMA_CENTRE);
+    return poly_gamma(t)/ksqrt(a + 0.25f);
+}

@@ -1,0 +1,64 @@
+/* kmath_trig.h: circular functions and their inverses of kmath.h (include that).
+ * SPDX-License-Identifier: MIT */
+#pragma once
+
+#include "core/kernel/kmath_basic.h"
+
+/* (cos, sin) of q/4 + f turns, |f| <= 1/8, q the low two bits of `quadrant` */
+KERNEL real2 cossin_in_quadrant(real_bits quadrant, real f)
+{
+    real f2 = f*f;
+    real s  = f*poly_sin(f2);
+    real c  = 1.0f + f2*poly_cos(f2);
+    real x  = (quadrant & 1u) != 0u ? s : c;
+    real y  = (quadrant & 1u) != 0u ? c : s;
+    real_bits x_sign = ((quadrant + 1u) & 2u) << (SIGN_SHIFT);
+    real_bits y_sign = (quadrant & 2u) << (SIGN_SHIFT);
+    return make2(real_of(bits_of(x) ^ x_sign) + 0.0f, real_of(bits_of(y) ^ y_sign) + 0.0f); /* -0 becomes 0 */
+}
+
+/* (cos(2 pi u), sin(2 pi u)) (ULP_TURN), |u| < 2^20; the eight zeros and ones at multiples of 1/4 are exact */
+KERNEL real2 kcossin_turn(real u)
+{
+    real shifted = 4.0f*u + ROUND_TO_INTEGER;
+    return cossin_in_quadrant(bits_of(shifted), u - 0.25f*(shifted - ROUND_TO_INTEGER));
+}
+
+/* (cos x, sin x) (ULP_COSSIN), x in radians, |x| < 1000 / 1e5; pi/2 is taken off in three parts, so that the zeros keep
+ * their relative accuracy */
+KERNEL real2 kcossin(real x)
+{
+    real shifted = x*(2.0f*INV_PI) + ROUND_TO_INTEGER;
+    real n       = shifted - ROUND_TO_INTEGER;
+    real r       = ((x - n*HALF_PI_HIGH) - n*HALF_PI_MIDDLE) - n*HALF_PI_LOW;
+    return cossin_in_quadrant(bits_of(shifted), r*INV_TWO_PI);
+}
+
+KERNEL real kcos(real x) { return kcossin(x).x; }
+KERNEL real ksin(real x) { return kcossin(x).y; }
+
+/* The angle of the point (x, y) (ULP_ATAN2), in [-pi, pi], its sign that of y (of -0 too); 0 or pi, by the sign of x, at the origin.
+ * |x| + |y| <= REAL_MAX.  With v = min/max of |x|, |y|: atan v = pi/4 + atan((v-1)/(v+1)) beyond tan(pi/8). */
+KERNEL real katan2(real y, real x)
+{
+    real ax   = kabs(x);
+    real ay   = kabs(y);
+    real low  = kmin(ax, ay);
+    real high = kmax(ax, ay);
+    real far  = low > TAN_PI_8*high ? 1.0f : 0.0f;
+    real num  = far > 0.0f ? low - high : low;
+    real den  = far > 0.0f ? low + high : high;
+    real v    = num/(den > 0.0f ? den : 1.0f);
+    real v2   = v*v;
+    real a    = far*QUARTER_PI + (v + (v*v2*poly_atan(v2) + far*(0.5f*HALF_PI_TAIL)));
+    real b    = ay > ax ? HALF_PI - (a - HALF_PI_TAIL) : a;
+    real c    = (bits_of(x) & SIGN_BIT) != 0u ? PI - (b - 2.0f*HALF_PI_TAIL) : b;
+    return kcopysign(c, y);
+}
+
+/* arccos x in [0, pi] (ULP_ACOS); x beyond [-1, 1] counts as the nearer end */
+KERNEL real kacos(real x)
+{
+    real c = kclamp(x, -1.0f, 1.0f);
+    return katan2(ksqrt((1.0f - c)*(1.0f + c)), c);
+}
