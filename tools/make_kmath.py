@@ -122,8 +122,9 @@ def make_fits(is_double):
     half_ln2 = mp.log(2)/2*(1 + mpf(2)**-10)
     s_max = (mp.sqrt(2) - 1)/(mp.sqrt(2) + 1)
     v_max = mp.tan(mp.pi/8)*(1 + mpf(2)**-20)
-    erfcx_c, mills_c, gamma_c = (mpf(str(c)) for c in (ERFCX_CENTRE, MILLS_CENTRE, GAMMA_CENTRE))
-    border, inv_c = mpf(str(ERFINV_BORDER)), mpf(str(ERFINV_CENTRE))
+    erfcx_c, mills_c, inv_c, gamma_c = (
+        round_to(CENTRES[name][is_double], 53 if is_double else 24) for name in ("erfcx", "mills", "erfinv", "gamma"))
+    border = mpf(ERFINV_BORDER)
     w_max = mpf("708.5" if is_double else "87.5")
     t_of = lambda s: (s - inv_c)/(s + inv_c)
     s_of = lambda t: inv_c*(1 + t)/(1 - t)
@@ -163,10 +164,11 @@ def make_fits(is_double):
     ]
 
 
-# Centres and degrees were chosen by trying: the smallest degree whose error is below half an ulp.
-ERFCX_CENTRE, MILLS_CENTRE, GAMMA_CENTRE = 2.5, 1.5, 1.0
-ERFINV_BORDER, ERFINV_CENTRE = 5.0, 4.0
-DEGREES = {"erfcx": (10, 24), "mills": (11, 26), "erfinv_near": (8, 9), "erfinv_far": (6, 6), "gamma": (6, 14)}
+# Centres c and degrees (float, double), chosen by trying: the smallest degree whose error is well below half an ulp of
+# the result.  In double erfinv only starts an iteration, so that 5e-8 is enough.
+ERFINV_BORDER = 5.0
+CENTRES = {"erfcx": (3.0, 4.0), "mills": (2.5, 4.0), "erfinv": (3.0, 4.0), "gamma": (0.7, 0.9)}
+DEGREES = {"erfcx": (11, 24), "mills": (12, 26), "erfinv_near": (9, 9), "erfinv_far": (9, 11), "gamma": (7, 18)}
 
 
 def memoized(f):
@@ -260,11 +262,11 @@ def constants(is_double):
         ("HALF_PI_TAIL", mp.pi/2 - round_to(mp.pi/2, bits), "pi/2 - HALF_PI"),
         ("TAN_PI_8", mp.tan(mp.pi/8), None),
         ("FAR_AWAY", mpf("1e9" if not is_double else "1e16"), "beyond, 1/x^2 is still normal and all fits are constant"),
-        ("ERFCX_CENTRE", ERFCX_CENTRE, None),
-        ("MILLS_CENTRE", MILLS_CENTRE, None),
-        ("GAMMA_CENTRE", GAMMA_CENTRE, None),
+        ("ERFCX_CENTRE", CENTRES["erfcx"][is_double], None),
+        ("MILLS_CENTRE", CENTRES["mills"][is_double], None),
+        ("GAMMA_CENTRE", CENTRES["gamma"][is_double], None),
         ("ERFINV_BORDER", ERFINV_BORDER, None),
-        ("ERFINV_CENTRE", ERFINV_CENTRE, None),
+        ("ERFINV_CENTRE", CENTRES["erfinv"][is_double], None),
     ]
 
 

@@ -1,0 +1,88 @@
+/* replay.c: runs a fuzzing program's corpus as an ordinary test, without libFuzzer.
+ *
+ *     replay_NAME [FOLDER]
+ *
+ * Each file is given as it is, cut short at 64 places, and with one byte changed at 256 places; so is an empty
+ * input.  The places come from a fixed seed: a failure repeats.  Any crash, sanitizer report or hang is the failure.
+ * SPDX-License-Identifier: MIT */
+#include <dirent.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+
+enum { N_CUTS = 64, N_CHANGES = 256, LARGEST_CHANGED = 1 << 16 };
+
+static uint64_t next_random(uint64_t *state)
+{
+    *state = *state*6364136223846793005u + 1442695040888963407u; /* Knuth's MMIX generator */
+    return *state >> 33;
+}
+
+/* A copy of exactly `size` bytes, so that reading past the end is a heap overflow. */
+static void give(const uint8_t *data, size_t size)
+{
+    uint8_t *copy = malloc(size ? size : 1);
+    if (!copy) abort();
+    if (size) memcpy(copy, data, size);
+    LLVMFuzzerTestOneInput(copy, size);
+    free(copy);
+}
+
+static void give_variants(uint8_t *data, size_t size)
+{
+    uint64_t random = 1;
+    give(data, size);
+    if (size == 0 || size > LARGEST_CHANGED) return; /* a large file takes too long 320 times */
+    for (int i = 0; i < N_CUTS; i++) give(data, next_random(&random)%size);
+    for (int i = 0; i < N_CHANGES; i++) {
+        const size_t place = next_random(&random)%size;
+        const uint8_t kept = data[place];
+        data[place] = (uint8_t)next_random(&random);
+        give(data, size);
+        data[place] = kept;
+    }
+}
+
+static int give_file(const char *path)
+{
+    FILE *file = fopen(path, "rb");
+    if (!file) return 0;
+    size_t size = 0, capacity = 4096;
+    uint8_t *data = malloc(capacity);
+    while (data) {
+        size += fread(data + size, 1, capacity - size, file);
+        if (size < capacity) break;
+        capacity *= 2;
+        uint8_t *larger = realloc(data, capacity);
+        if (!larger) free(data);
+        data = larger;
+    }
+    const int is_read = data && !ferror(file);
+    fclose(file);
+    if (is_read) give_variants(data, size);
+    free(data);
+    return is_read;
+}
+
+int main(int argc, char **argv)
+{
+    give(NULL, 0);
+    int n_files = 0;
+    DIR *folder = argc > 1 ? opendir(argv[1]) : NULL;
+    for (struct dirent *entry; folder && (entry = readdir(folder));) {
+        char path[4096];
+        if (entry->d_name[0] == '.') continue;
+        if (snprintf(path, sizeof path, "%s/%s", argv[1], entry->d_name) >= (int)sizeof path || !give_file(path)) {
+            fprintf(stderr, "replay: cannot read %s/%s\n", argv[1], entry->d_name);
+            closedir(folder);
+            return 1;
+        }
+        n_files++;
+    }
+    if (folder) closedir(folder);
+    printf("%d files replayed\n", n_files);
+    return 0;
+}

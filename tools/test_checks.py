@@ -1,0 +1,305 @@
+#!/usr/bin/env python3
+"""Each check can fail: small trees, made for the purpose, with one fault each; and pass: the same without it.
+
+SPDX-License-Identifier: MIT
+"""
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+import unittest
+
+sys.dont_write_bytecode = True
+
+import check_core_alone
+import check_headers
+import check_includes
+import check_links
+import check_names
+import check_symbols
+import check_text
+import format as layout
+
+SPDX = "/* SPDX-License-Identifier: MIT */\n"
+
+
+class CheckTest(unittest.TestCase):
+    def setUp(self):
+        self.root = tempfile.mkdtemp(prefix="facet-checks-")
+        self.addCleanup(shutil.rmtree, self.root)
+
+    def write(self, name, text):
+        path = os.path.join(self.root, name)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path, "w", encoding="utf-8") as stream:
+            stream.write(text)
+        return path
+
+    def assert_one(self, problems, word):
+        self.assertEqual(len(problems), 1, problems)
+        self.assertIn(word, problems[0])
+
+
+class Includes(CheckTest):
+    def setUp(self):
+        super().setUp()
+        self.write("include/facet/facet.h", "#include <stddef.h>\n")
+        self.write("core/error.h", '#include "facet/facet.h"\n')
+        self.write("core/error.c", '#include "error.h"\n')
+        self.write("render/film.c", '#include "core/error.h"\n#include <pthread.h>\n')
+        self.write("io/exr.c", '#include "core/error.h"\n#include <OpenEXR/openexr.h>\n')
+        self.write("tests/io/test_exr.c", '#include <cmocka.h>\n#include "core/error.h"\n')
+
+    def test_clean_tree_passes(self):
+        self.assertEqual(check_includes.check(self.root), [])
+
+    def test_include_to_the_right(self):
+        self.write("io/file.h", "")
+        self.write("render/world.c", '#include "io/file.h"\n')
+        self.assert_one(check_includes.check(self.root), "render/ may not include")
+
+    def test_include_to_the_right_by_relative_path(self):
+        self.write("render/film.h", "")
+        self.write("core/bsdf.c", '#  include "../render/film.h"\n')
+        self.assert_one(check_includes.check(self.root), "core/ may not include")
+
+    def test_example_sees_internals(self):
+        self.write("examples/hello.c", '#include "core/error.h"\n')
+        self.assert_one(check_includes.check(self.root), "examples/ may not include")
+
+    def test_library_in_two_files(self):
+        self.write("io/image_file.c", "#include <openexr.h>\n")
+        self.assert_one(check_includes.check(self.root), "OpenEXR is included by io/exr.c, io/image_file.c")
+
+    def test_library_in_a_header(self):
+        self.write("io/json.h", "#include <jansson.h>\n")
+        self.assert_one(check_includes.check(self.root), "never by a header")
+
+    def test_core_needs_posix(self):
+        self.write("core/isa.c", "#include <pthread.h>\n")
+        self.assert_one(check_includes.check(self.root), "C11 only")
+
+    def test_product_needs_the_test_library(self):
+        self.write("cli/main.c", "#include <cmocka.h>\n")
+        self.assert_one(check_includes.check(self.root), "tests only")
+
+    def test_unknown_library(self):
+        self.write("cli/main.c", "#include <curl/curl.h>\n")
+        self.assert_one(check_includes.check(self.root), "not known")
+
+    def test_missing_file(self):
+        self.write("cli/main.c", '#include "cli/nowhere.h"\n')
+        self.assert_one(check_includes.check(self.root), "cli/main.c:1")
+
+    def test_comment_is_no_include(self):
+        self.write("core/note.c", '/*\n#include "io/file.h"\n*/\n')
+        self.assertEqual(check_includes.check(self.root), [])
+
+
+class Names(CheckTest):
+    def test_pair_in_one_folder_passes(self):
+        self.write("core/error.c", "")
+        self.write("core/error.h", "")
+        self.assertEqual(check_names.check(self.root), [])
+
+    def test_same_name_in_two_folders(self):
+        self.write("core/error.c", "")
+        self.write("io/error.h", "")
+        self.assert_one(check_names.check(self.root), "has this name already")
+
+    def test_camel_case(self):
+        self.write("render/imageFilm.c", "")
+        self.assert_one(check_names.check(self.root), "snake_case")
+
+    def test_hyphen(self):
+        self.write("bench/two-words.c", "")
+        self.assert_one(check_names.check(self.root), "snake_case")
+
+
+class Text(CheckTest):
+    def check_file(self, text, name="core/a.c"):
+        self.write(name, text)
+        return check_text.check(self.root)
+
+    def test_clean_file_passes(self):
+        self.assertEqual(self.check_file(SPDX + "int a; /* see https://example.org/home/x */\n"), [])
+
+    def test_tab(self):
+        self.assert_one(self.check_file(SPDX + "\tint a;\n"), "core/a.c:2: tab")
+
+    def test_tab_in_makefile_passes(self):
+        self.assertEqual(self.check_file("all:\n\ttrue\n", "Makefile"), [])
+
+    def test_trailing_blank(self):
+        self.assert_one(self.check_file("words \n", "docs/a.md"), "trailing blank")
+
+    def test_carriage_return(self):
+        self.write("docs/a.md", "")
+        with open(os.path.join(self.root, "docs/a.md"), "wb") as stream:
+            stream.write(b"words\r\n")
+        self.assertIn("carriage return", check_text.check(self.root)[0])
+
+    def test_no_final_newline(self):
+        self.assert_one(self.check_file(SPDX + "int a;"), "no end")
+
+    def test_machine_path(self):
+        self.assert_one(self.check_file(SPDX + 'const char *a = "/ho' 'me/someone/a";\n'), "absolute path")
+
+    def test_missing_licence(self):
+        self.assert_one(self.check_file("int a;\n"), "SPDX")
+
+    def test_doubled_licence(self):
+        self.assert_one(self.check_file(SPDX + SPDX + "int a;\n"), "2 lines")
+
+    def test_unfinished(self):
+        self.assert_one(self.check_file(SPDX + "/* TO" "DO: more */\n"), "unfinished")
+
+    def test_disabled(self):
+        self.assert_one(self.check_file(SPDX + "#if 0\nint a;\n#endif\n"), "disabled")
+
+    def test_long_line(self):
+        self.assert_one(self.check_file(SPDX + "/*" + "x" * 120 + "*/\n"), "longer than")
+
+
+class Links(CheckTest):
+    def setUp(self):
+        super().setUp()
+        self.write("docs/models.md", "# Models\n\n## The GGX model: D, G1\n")
+
+    def test_good_links_pass(self):
+        self.write("README.md", "[m](docs/models.md#the-ggx-model-d-g1) [w](https://example.org) `[no](link)`\n")
+        self.assertEqual(check_links.check(self.root), [])
+
+    def test_missing_file(self):
+        self.write("README.md", "see\n![picture](docs/none.png)\n")
+        self.assert_one(check_links.check(self.root), "README.md:2: docs/none.png does not exist")
+
+    def test_missing_heading(self):
+        self.write("README.md", "[m](docs/models.md#beckmann)\n")
+        self.assert_one(check_links.check(self.root), "no heading")
+
+    def test_link_out_of_the_tree(self):
+        self.write("docs/a.md", "[m](../../elsewhere.md)\n")
+        self.assert_one(check_links.check(self.root), "leaves the tree")
+
+
+class Headers(CheckTest):
+    def test_good_headers_pass(self):
+        self.write("include/facet/facet.h", "#pragma once\n#include <stddef.h>\nsize_t n(void);\n")
+        self.write("core/kernel/k.h", "#pragma once\nstatic int k(void) { return (int[]){1}[0]; }\n")
+        self.assertEqual(check_headers.check(self.root), [])
+
+    def test_header_that_needs_another(self):
+        self.write("io/a.h", "#pragma once\nvoid f(size_t n);\n")
+        problems = check_headers.check(self.root)
+        self.assertTrue(problems and all("io/a.h: does not compile alone" in p for p in problems), problems)
+
+    @unittest.skipUnless(shutil.which(os.environ.get("CXX", "c++")), "no C++ compiler")
+    def test_header_that_is_no_cxx(self):
+        self.write("io/a.h", "#pragma once\nvoid f(int class);\n")
+        self.assert_one(check_headers.check(self.root), "C++17")
+
+    def test_header_without_guard(self):
+        self.write("io/a.h", "void f(void);\n")
+        self.assert_one(check_headers.check(self.root), "#pragma once")
+
+    def test_kernel_that_fails_in_double_only(self):
+        self.write("core/kernel/k.h", "#pragma once\n#if FACET_REAL_IS_DOUBLE\nint f(void) { return x; }\n#endif\n")
+        self.assert_one(check_headers.check(self.root), "double")
+
+
+class CoreAlone(CheckTest):
+    PROGRAM = '#include "facet/facet.h"\nint main(void) { return facet(); }\n'
+
+    def setUp(self):
+        super().setUp()
+        self.write("include/facet/facet.h", "int facet(void);\n")
+
+    def test_plain_core_passes(self):
+        self.write("core/facet.c", '#include "facet/facet.h"\nint facet(void) { return 0; }\n')
+        self.assertEqual(check_core_alone.check(self.root, self.PROGRAM), [])
+
+    def test_core_that_needs_the_root_as_include_folder(self):
+        self.write("core/own.h", "")
+        self.write("core/facet.c", '#include "core/own.h"\nint facet(void) { return 0; }\n')
+        self.assertIn("own.h", check_core_alone.check(self.root, self.PROGRAM)[0])
+
+    def test_core_that_misses_a_function(self):
+        self.write("core/facet.c", "int other;\n")
+        self.assertIn("undefined", check_core_alone.check(self.root, self.PROGRAM)[0])
+
+    def test_core_that_computes_wrongly(self):
+        self.write("core/facet.c", "int facet(void) { return 3; }\n")
+        self.assertIn("status 3", check_core_alone.check(self.root, self.PROGRAM)[0])
+
+
+class Symbols(CheckTest):
+    def build(self, code):
+        source, cc = self.write("a.c", code), os.environ.get("CC", "cc")
+        self.write("include/facet/facet.h", "#define FACET_API\nFACET_API int *facet_one(int a);\n")
+        files = [os.path.join(self.root, name) for name in ("a.o", "liba.so", "liba.a")]
+        subprocess.run([cc, "-fPIC", "-c", source, "-o", files[0]], check=True)
+        subprocess.run([cc, "-shared", files[0], "-o", files[1]], check=True)
+        subprocess.run(["ar", "rcs", files[2], files[0]], check=True)
+        return check_symbols.check(self.root, files[1], files[2])
+
+    def test_prefixed_symbols_pass(self):
+        self.assertEqual(self.build("static int own; int *facet_one(int a) { own = a; return &own; }"), [])
+
+    def test_symbol_without_prefix(self):
+        problems = self.build("int other; int *facet_one(int a) { other = a; return &other; }")
+        self.assertEqual(len(problems), 2)  # the shared and the static library
+        self.assertTrue(all("other" in problem for problem in problems))
+
+    def test_hidden_symbol_without_prefix(self):
+        self.assert_one(self.build("__attribute__((visibility(\"hidden\"))) int other; int *facet_one(int a) "
+                                   "{ return &other + a; }"), "other is global")
+
+    def test_declared_and_missing(self):
+        self.assert_one(self.build("int facet_two;"), "facet_one is declared")
+
+
+class Layout(unittest.TestCase):
+    def assert_tight(self, old, new):
+        self.assertEqual(layout.tighten(old), new)
+
+    def test_products_and_quotients(self):
+        self.assert_tight("x = a * b + c / d;\n", "x = a*b + c/d;\n")
+
+    def test_pointers_stay(self):
+        text = "char *p = (char *)q + f(int (*)(void), **r);\n"
+        self.assert_tight(text, text)
+
+    def test_product_with_a_dereference(self):
+        self.assert_tight("x = 2 * *p;\n", "x = 2**p;\n")
+
+    def test_quotient_by_a_dereference_is_no_comment(self):
+        self.assert_tight("x = a / *p;\n", "x = a / *p;\n")
+
+    def test_comments_and_literals_stay(self):
+        text = '/* a * b\n * c / d */ s = "a * b"; c = \' \'; // a / b\n'
+        self.assert_tight(text, text)
+
+    def test_frozen_region_stays(self):
+        text = "/* clang-format off */\nx = a * b;\n/* clang-format on */\n"
+        self.assert_tight(text + "x = a * b;\n", text + "x = a*b;\n")
+
+    def test_continuation_moves_with_its_bracket(self):
+        self.assert_tight("x = a * f(b,\n          c);\n", "x = a*f(b,\n        c);\n")
+
+    def test_continuation_of_a_continuation(self):
+        self.assert_tight("x = a * f(b * g(c,\n                d),\n          e);\n",
+                          "x = a*f(b*g(c,\n            d),\n        e);\n")
+
+    def test_next_statement_stays(self):
+        text = "    for (i = 0; i < n; i++)\n        x = a;\n    y = b;\n"
+        self.assert_tight(text, text)
+
+    def test_trailing_comments_stay_in_one_column(self):
+        self.assert_tight("x = a * b; /* one */\ny = c;     /* two,\n            * three */\nz;\n",
+                          "x = a*b; /* one */\ny = c;   /* two,\n          * three */\nz;\n")
+
+
+if __name__ == "__main__":
+    unittest.main()
