@@ -125,7 +125,7 @@ typedef struct scene {
     sphere *spheres;          size_t n_spheres;
     punctual_light *lights;   size_t n_lights;
     camera *cameras;          size_t n_cameras;
-    environment environment;
+    struct environment environment; /* the tag keeps this valid C++ */
     uint64_t hash;            /* of everything that was read, for provenance */
 } scene;
 
