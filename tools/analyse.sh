@@ -11,8 +11,19 @@ echo "cppcheck: ok"
 
 # clang's own compile commands: gcc's have options that clang-tidy does not know.
 cmake --preset sanitize >/dev/null
-run-clang-tidy-14 -quiet -j 2 -p build/sanitize "$PWD/(core|render|io|cli)/" >build/clang-tidy.log 2>&1 || {
-    grep -E -A 4 '(warning|error):' build/clang-tidy.log || cat build/clang-tidy.log
+
+# The files that define what analyser.h makes macros of go without it.
+defining="core/error.c io/json.c"
+tidy()
+{
+    xargs -P 2 -n 1 clang-tidy-14 --quiet -p build/sanitize "$@" 2>build/clang-tidy.log
+}
+{
+    find core render io cli -name '*.c' ! -path core/error.c ! -path io/json.c | sort |
+        tidy --extra-arg=-include --extra-arg=tools/analyser.h --extra-arg=-Wno-unused-value
+} && echo "$defining" | tidy || {
+    grep -E '(warning|error):' build/clang-tidy.log || true
+    echo "clang-tidy: failed"
     exit 1
 }
 echo "clang-tidy: ok"
