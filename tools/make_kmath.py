@@ -88,6 +88,14 @@ def mills_w(x):
         return 1 - mp.sqrt(mp.pi)*x*erfcx(x)
 
 
+def erfcx_scaled(x):
+    return (1 + 2*x)*erfcx(x)
+
+
+def mills_scaled(x):
+    return (1 + 2*x*x)*mills_w(x)
+
+
 def from_centre(t, c):
     """The x in [0, inf) with t = (x - c)/(x + c)."""
     return c*(1 + t)/(1 - t)
@@ -122,12 +130,14 @@ def make_fits(is_double):
     half_ln2 = mp.log(2)/2*(1 + mpf(2)**-10)
     s_max = (mp.sqrt(2) - 1)/(mp.sqrt(2) + 1)
     v_max = mp.tan(mp.pi/8)*(1 + mpf(2)**-20)
+    r_max = mp.pi/4*(1 + mpf(2)**-10)
     erfcx_c, mills_c, inv_c, gamma_c = (
         round_to(CENTRES[name][is_double], 53 if is_double else 24) for name in ("erfcx", "mills", "erfinv", "gamma"))
     border = mpf(ERFINV_BORDER)
     w_max = mpf("708.5" if is_double else "87.5")
     t_of = lambda s: (s - inv_c)/(s + inv_c)
     s_of = lambda t: inv_c*(1 + t)/(1 - t)
+    near_start = SMALL - 1
     near_end = 1 - mpf(10)**-9   # t of x = 1e9 c: beyond, the fits are constant to all digits
     erf_near = lambda w: erf_inverse_of(w)/mp.sqrt(-mp.expm1(-w))
     return [
@@ -136,21 +146,21 @@ def make_fits(is_double):
         Fit("log", "(2 atanh(s) - 2 s)/s^3 of z = s^2, s <= (sqrt(2) - 1)/(sqrt(2) + 1)",
             lambda z: 2*(mp.atanh(mp.sqrt(z))/mp.sqrt(z) - 1)/z, lambda z: mp.sqrt(z)*z/(2*mp.atanh(mp.sqrt(z))),
             SMALL, s_max**2, (3, 7)),
-        Fit("sin", "sin(2 pi f)/f of z = f^2, f <= 1/8", lambda z: mp.sin(2*mp.pi*mp.sqrt(z))/mp.sqrt(z),
-            lambda z: mp.sqrt(z)/mp.sin(2*mp.pi*mp.sqrt(z)), SMALL, mpf(1)/64, (4, 7)),
-        Fit("cos", "(cos(2 pi f) - 1)/f^2 of z = f^2, f <= 1/8", lambda z: (mp.cos(2*mp.pi*mp.sqrt(z)) - 1)/z,
-            lambda z: z/mp.cos(2*mp.pi*mp.sqrt(z)), SMALL, mpf(1)/64, (3, 7)),
+        Fit("sin", "(sin(r) - r)/r^3 of z = r^2, r <= pi/4", lambda z: (mp.sin(mp.sqrt(z))/mp.sqrt(z) - 1)/z,
+            lambda z: z*mp.sqrt(z)/mp.sin(mp.sqrt(z)), SMALL, r_max**2, (3, 6)),
+        Fit("cos", "(cos(r) - 1 + r^2/2)/r^4 of z = r^2, r <= pi/4", lambda z: (mp.cos(mp.sqrt(z)) - 1 + z/2)/z**2,
+            lambda z: z**2/mp.cos(mp.sqrt(z)), SMALL, r_max**2, (2, 6)),
         Fit("atan", "(atan(v) - v)/v^3 of z = v^2, v <= tan(pi/8)",
             lambda z: (mp.atan(mp.sqrt(z))/mp.sqrt(z) - 1)/z, lambda z: z*mp.sqrt(z)/mp.atan(mp.sqrt(z)),
             SMALL, v_max**2, (4, 10)),
         Fit("erf", "erf(x)/x - 1 of z = x^2, x <= 1", lambda z: mp.erf(mp.sqrt(z))/mp.sqrt(z) - 1,
             lambda z: mp.sqrt(z)/mp.erf(mp.sqrt(z)), SMALL, 1, (6, 12)),
-        Fit("erfcx", "(1 + 2 x) erfcx(x) of t = (x - c)/(x + c), x >= 0",
-            lambda t: (1 + 2*from_centre(t, erfcx_c))*erfcx(from_centre(t, erfcx_c)),
-            lambda t: 1/((1 + 2*from_centre(t, erfcx_c))*erfcx(from_centre(t, erfcx_c))), -1, near_end, DEGREES["erfcx"]),
-        Fit("mills", "(1 + 2 x^2) W(x) of t = (x - c)/(x + c), x >= 0",
-            lambda t: (1 + 2*from_centre(t, mills_c)**2)*mills_w(from_centre(t, mills_c)),
-            lambda t: 1/((1 + 2*from_centre(t, mills_c)**2)*mills_w(from_centre(t, mills_c))), -1, near_end, DEGREES["mills"]),
+        Fit("erfcx", "((1 + 2 x) erfcx(x) - 1)/v of t = 2 v - 1, v = x/(x + c)",
+            lambda t: 2*(erfcx_scaled(from_centre(t, erfcx_c)) - 1)/(1 + t),
+            lambda t: (1 + t)/2/erfcx_scaled(from_centre(t, erfcx_c)), near_start, near_end, DEGREES["erfcx"]),
+        Fit("mills", "((1 + 2 x^2) W(x) - 1)/v of t = 2 v - 1, v = x/(x + c)",
+            lambda t: 2*(mills_scaled(from_centre(t, mills_c)) - 1)/(1 + t),
+            lambda t: (1 + t)/2/mills_scaled(from_centre(t, mills_c)), near_start, near_end, DEGREES["mills"]),
         Fit("erfinv_near", "z/erf(z) of w - ERFINV_BORDER/2, w = -ln(1 - erf(z)^2) <= ERFINV_BORDER",
             lambda x: erf_near(x + border/2), lambda x: 1/erf_near(x + border/2),
             SMALL - border/2, border/2, DEGREES["erfinv_near"]),
@@ -210,17 +220,19 @@ def literal(x, is_double):
 
 
 def horner(names, x):
-    """Two chains, even and odd, joined pair by pair: half the latency of Horner's rule, the same coefficients."""
-    if len(names) <= 5:
+    """(definition of the square or None, the formula): Horner's rule up to degree 5; above, the constant term and
+    x times two interleaved chains, even and odd, which halves the latency and keeps the last addition accurate."""
+    if len(names) <= 6:
         text = names[-1]
         for name in reversed(names[:-1]):
-            text = f"{name} + {x}*({text})" if "+" in text else f"{name} + {x}*{text}"
+            text = f"{name} + {x}*{text if text == names[-1] else '(' + text + ')'}"
         return None, text
-    pairs = [f"({names[i]} + {x}*{names[i + 1]})" if i + 1 < len(names) else names[i] for i in range(0, len(names), 2)]
+    tail = names[1:]
+    pairs = [f"({tail[i]} + {x}*{tail[i + 1]})" if i + 1 < len(tail) else tail[i] for i in range(0, len(tail), 2)]
     text = pairs[-1]
     for pair in reversed(pairs[:-1]):
-        text = f"{pair} + {x}2*({text})" if "+" in text and not text.startswith("(") or ") +" in text else f"{pair} + {x}2*{text}"
-    return f"    real {x}2 = {x}*{x};\n", text
+        text = f"({pair} + {x}2*{text})"
+    return f"    real {x}2 = {x}*{x};\n", f"{names[0]} + {x}*{text}"
 
 
 def wrap(text, indent, width=110):
@@ -244,7 +256,7 @@ def cut(x, bits):
 def constants(is_double):
     bits = 53 if is_double else 24
     high_bits = 41 if is_double else 15      # leaves room for an exponent: n*LN_TWO_HIGH is exact
-    part_bits = 33 if is_double else 12      # leaves room for the quadrant
+    part_bits = 33 if is_double else 14      # leaves room for the quadrant
     ln2_high = cut(mp.log(2), high_bits)
     pio2_high = cut(mp.pi/2, part_bits)
     pio2_middle = cut(mp.pi/2 - pio2_high, part_bits)
@@ -259,6 +271,7 @@ def constants(is_double):
         ("HALF_PI_HIGH", pio2_high, f"pi/2 in parts of {part_bits} bits, and the rest"),
         ("HALF_PI_MIDDLE", pio2_middle, None),
         ("HALF_PI_LOW", mp.pi/2 - pio2_high - pio2_middle, None),
+        ("TWO_PI_TAIL", 2*mp.pi - round_to(2*mp.pi, bits), "2 pi - TWO_PI"),
         ("HALF_PI_TAIL", mp.pi/2 - round_to(mp.pi/2, bits), "pi/2 - HALF_PI"),
         ("TAN_PI_8", mp.tan(mp.pi/8), None),
         ("FAR_AWAY", mpf("1e9" if not is_double else "1e16"), "beyond, 1/x^2 is still normal and all fits are constant"),
@@ -279,7 +292,7 @@ def header_text(is_double):
            " * the function that it approximates and the error it causes in the result, relative, in units of 2^-"
            f"{bits}.\n"
            " * SPDX-License-Identifier: MIT */\n"
-           "#pragma once\n\n#include \"core/kernel/real.h\"\n\n"]
+           "#pragma once\n\n#include \"real.h\"\n\n"]
     for name, value, text in constants(is_double):
         comment = f" /* {text} */" if text else ""
         number = literal(round_to(value, bits), is_double)
@@ -318,7 +331,7 @@ def main(arguments):
         text = header_text(is_double)
         if not arguments:
             path.write_text(text)
-        elif path.read_text() != text:
+        elif path.read_text().split() != text.split():  # `make format` may move line ends
             print(f"{path.name} differs from what tools/make_kmath.py computes; run it", file=sys.stderr)
             status = 1
     return status

@@ -13,15 +13,15 @@
 
 #include <string.h>
 
-#include "core/kernel/real.h"
+#include "real.h"
 
 #if FACET_REAL_IS_DOUBLE
-#include "core/kernel/kmath_f64.h"
+#include "kmath_f64.h"
 #else
-#include "core/kernel/kmath_f32.h"
+#include "kmath_f32.h"
 #endif
 
-#include "core/kernel/kmath_basic.h"
-#include "core/kernel/kmath_exp.h"
-#include "core/kernel/kmath_trig.h"
-#include "core/kernel/kmath_erf.h"
+#include "kmath_basic.h"
+#include "kmath_exp.h"
+#include "kmath_trig.h"
+#include "kmath_erf.h"

@@ -4,7 +4,7 @@
 
 #include <string.h>
 
-#include "core/kernel/real.h"
+#include "real.h"
 
 #if FACET_REAL_IS_DOUBLE
 #define FRACTION_BITS 52

@@ -3,16 +3,16 @@
  * SPDX-License-Identifier: MIT */
 #pragma once
 
-#include "core/kernel/kmath_basic.h"
-#include "core/kernel/kmath_exp.h"
+#include "kmath_basic.h"
+#include "kmath_exp.h"
 
 /* erfcx(x) = e^(x^2) erfc(x) (ULP_ERFCX) for x >= 0; smaller x counts as 0.  (1 + 2x) erfcx(x) goes from 1 at 0 to
- * 2/sqrt(pi) at infinity and is a polynomial in t = (x - c)/(x + c). */
+ * 2/sqrt(pi) at infinity and is 1 + v p(2v - 1), p a polynomial in the image v = x/(x + c) of [0, inf]. */
 KERNEL real kerfcx(real x)
 {
     real a = kclamp(x, 0.0f, FAR_AWAY);
-    real t = (a - ERFCX_CENTRE)/(a + ERFCX_CENTRE);
-    return poly_erfcx(t)/(1.0f + 2.0f*a);
+    real v = a/(a + ERFCX_CENTRE);
+    return (1.0f + v*poly_erfcx(2.0f*v - 1.0f))/(1.0f + 2.0f*a);
 }
 
 /* W(x) = 1 - sqrt(pi) x erfcx(x) (ULP_MILLS) for x >= 0; smaller x counts as 0.  Positive: 1 at 0, 1/(2 x^2) far out,
@@ -21,8 +21,8 @@ KERNEL real kerfcx(real x)
 KERNEL real kmills_w(real x)
 {
     real a = kclamp(x, 0.0f, FAR_AWAY);
-    real t = (a - MILLS_CENTRE)/(a + MILLS_CENTRE);
-    return poly_mills(t)/(1.0f + 2.0f*a*a);
+    real v = a/(a + MILLS_CENTRE);
+    return (1.0f + v*poly_mills(2.0f*v - 1.0f))/(1.0f + 2.0f*a*a);
 }
 
 /* erfc x = 1 - erf x (ULP_ERFC); 0 for x beyond 9.34 / 26.6 */

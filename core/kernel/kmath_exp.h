@@ -2,7 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #pragma once
 
-#include "core/kernel/kmath_basic.h"
+#include "kmath_basic.h"
 
 /* 2^n of an integral n in [-126, 127] / [-1022, 1023]; exact */
 KERNEL real two_to(real n)

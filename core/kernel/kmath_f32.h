@@ -5,23 +5,24 @@
  * SPDX-License-Identifier: MIT */
 #pragma once
 
-#include "core/kernel/real.h"
+#include "real.h"
 
 #define LN_TWO_HIGH    6.93145752e-01f /* ln 2 in 15 bits: n*LN_TWO_HIGH is exact for any exponent n */
 #define LN_TWO_LOW     1.42860677e-06f /* ln 2 - LN_TWO_HIGH */
 #define EXP_LOWEST     (-8.73365479e+01f) /* the last x with e^x >= REAL_MIN */
 #define EXP_HIGHEST    8.87228317e+01f /* the last x with e^x <= REAL_MAX */
-#define HALF_PI_HIGH   1.57031250e+00f /* pi/2 in parts of 12 bits, and the rest */
-#define HALF_PI_MIDDLE 4.83751297e-04f
-#define HALF_PI_LOW    7.54979013e-08f
+#define HALF_PI_HIGH   1.57067871e+00f /* pi/2 in parts of 14 bits, and the rest */
+#define HALF_PI_MIDDLE 1.17614865e-04f
+#define HALF_PI_LOW    9.92093629e-10f
+#define TWO_PI_TAIL    (-1.74845553e-07f) /* 2 pi - TWO_PI */
 #define HALF_PI_TAIL   (-4.37113883e-08f) /* pi/2 - HALF_PI */
 #define TAN_PI_8       4.14213568e-01f
 #define FAR_AWAY       1.00000000e+09f /* beyond, 1/x^2 is still normal and all fits are constant */
-#define ERFCX_CENTRE   2.50000000e+00f
-#define MILLS_CENTRE   1.50000000e+00f
-#define GAMMA_CENTRE   1.00000000e+00f
+#define ERFCX_CENTRE   3.00000000e+00f
+#define MILLS_CENTRE   2.50000000e+00f
+#define GAMMA_CENTRE   6.99999988e-01f
 #define ERFINV_BORDER  5.00000000e+00f
-#define ERFINV_CENTRE  4.00000000e+00f
+#define ERFINV_CENTRE  3.00000000e+00f
 
 /* (e^r - 1 - r)/r^2, |r| <= ln(2)/2: 0.076 */
 KERNEL real poly_exp(real r)
@@ -44,25 +45,23 @@ KERNEL real poly_log(real z)
     return c0 + z*(c1 + z*(c2 + z*c3));
 }
 
-/* sin(2 pi f)/f of z = f^2, f <= 1/8: 0.55 */
+/* (sin(r) - r)/r^3 of z = r^2, r <= pi/4: 0.061 */
 KERNEL real poly_sin(real z)
 {
-    real c0 = 6.28318548e+00f;
-    real c1 = -4.13417015e+01f;
-    real c2 = 8.16052017e+01f;
-    real c3 = -7.66977768e+01f;
-    real c4 = 4.14698792e+01f;
-    return c0 + z*(c1 + z*(c2 + z*(c3 + z*c4)));
+    real c0 = -1.66666672e-01f;
+    real c1 = 8.33332911e-03f;
+    real c2 = -1.98393071e-04f;
+    real c3 = 2.71806880e-06f;
+    return c0 + z*(c1 + z*(c2 + z*c3));
 }
 
-/* (cos(2 pi f) - 1)/f^2 of z = f^2, f <= 1/8: 0.18 */
+/* (cos(r) - 1 + r^2/2)/r^4 of z = r^2, r <= pi/4: 0.0022 */
 KERNEL real poly_cos(real z)
 {
-    real c0 = -1.97392082e+01f;
-    real c1 = 6.49393234e+01f;
-    real c2 = -8.54432373e+01f;
-    real c3 = 5.92293472e+01f;
-    return c0 + z*(c1 + z*(c2 + z*c3));
+    real c0 = 4.16666456e-02f;
+    real c1 = -1.38873118e-03f;
+    real c2 = 2.44326493e-05f;
+    return c0 + z*(c1 + z*c2);
 }
 
 /* (atan(v) - v)/v^3 of z = v^2, v <= tan(pi/8): 0.046 */
@@ -87,87 +86,95 @@ KERNEL real poly_erf(real z)
     real c5 = -8.01012968e-04f;
     real c6 = 7.85368757e-05f;
     real z2 = z*z;
-    return (c0 + z*c1) + z2*((c2 + z*c3) + z2*((c4 + z*c5) + z2*c6));
+    return c0 + z*((c1 + z*c2) + z2*((c3 + z*c4) + z2*(c5 + z*c6)));
 }
 
-/* (1 + 2 x) erfcx(x) of t = (x - c)/(x + c), x >= 0: 1.5 */
+/* ((1 + 2 x) erfcx(x) - 1)/v of t = 2 v - 1, v = x/(x + c): 0.17 */
 KERNEL real poly_erfcx(real t)
 {
-    real c0 = 1.26483822e+00f;
-    real c1 = -1.22357488e-01f;
-    real c2 = -9.90240723e-02f;
-    real c3 = 1.57644570e-01f;
-    real c4 = -1.02972090e-01f;
-    real c5 = 3.26765440e-02f;
-    real c6 = 9.51558410e-04f;
-    real c7 = -4.17883461e-03f;
-    real c8 = 4.57456073e-04f;
-    real c9 = 4.04848106e-04f;
-    real c10 = -6.14407836e-05f;
+    real c0 = 5.06016135e-01f;
+    real c1 = -7.77258277e-01f;
+    real c2 = 6.82133675e-01f;
+    real c3 = -4.22845542e-01f;
+    real c4 = 1.84298322e-01f;
+    real c5 = -4.76645157e-02f;
+    real c6 = 1.22825018e-04f;
+    real c7 = 4.87372326e-03f;
+    real c8 = -1.09505584e-03f;
+    real c9 = -3.56040284e-04f;
+    real c10 = 1.45230006e-04f;
+    real c11 = 8.68858478e-06f;
     real t2 = t*t;
-    return (c0 + t*c1) + t2*((c2 + t*c3) + t2*((c4 + t*c5) + t2*((c6 + t*c7) + t2*((c8 + t*c9) + t2*c10))));
+    return c0 + t*((c1 + t*c2) + t2*((c3 + t*c4) + t2*((c5 + t*c6) + t2*((c7 + t*c8) + t2*((c9 + t*c10) +
+           t2*c11)))));
 }
 
-/* (1 + 2 x^2) W(x) of t = (x - c)/(x + c), x >= 0: 9.2 */
+/* ((1 + 2 x^2) W(x) - 1)/v of t = 2 v - 1, v = x/(x + c): 0.6 */
 KERNEL real poly_mills(real t)
 {
-    real c0 = 7.97539115e-01f;
-    real c1 = 3.83051068e-01f;
-    real c2 = 3.84009220e-02f;
-    real c3 = -4.53304499e-01f;
-    real c4 = 2.03399718e-01f;
-    real c5 = 9.74710584e-02f;
-    real c6 = -4.39145938e-02f;
-    real c7 = -3.65781933e-02f;
-    real c8 = 3.96388862e-03f;
-    real c9 = 1.10415993e-02f;
-    real c10 = 6.11494237e-04f;
-    real c11 = -1.68103352e-03f;
+    real c0 = -2.21007228e-01f;
+    real c1 = 8.42673600e-01f;
+    real c2 = -1.37317896e+00f;
+    real c3 = 1.25804412e+00f;
+    real c4 = -6.69365823e-01f;
+    real c5 = 1.43822372e-01f;
+    real c6 = 5.14602736e-02f;
+    real c7 = -3.43062058e-02f;
+    real c8 = -3.77888163e-03f;
+    real c9 = 6.12935238e-03f;
+    real c10 = 2.67871801e-04f;
+    real c11 = -7.97133427e-04f;
+    real c12 = 3.66557397e-05f;
     real t2 = t*t;
-    return (c0 + t*c1) + t2*((c2 + t*c3) + t2*((c4 + t*c5) + t2*((c6 + t*c7) + t2*((c8 + t*c9) + t2*(c10 +
-           t*c11)))));
+    return c0 + t*((c1 + t*c2) + t2*((c3 + t*c4) + t2*((c5 + t*c6) + t2*((c7 + t*c8) + t2*((c9 + t*c10) +
+           t2*(c11 + t*c12))))));
 }
 
-/* z/erf(z) of w - ERFINV_BORDER/2, w = -ln(1 - erf(z)^2) <= ERFINV_BORDER: 1.7 */
+/* z/erf(z) of w - ERFINV_BORDER/2, w = -ln(1 - erf(z)^2) <= ERFINV_BORDER: 1.3 */
 KERNEL real poly_erfinv_near(real w)
 {
     real c0 = 1.50140941e+00f;
-    real c1 = 2.46640727e-01f;
-    real c2 = -4.17770678e-03f;
-    real c3 = -1.25370815e-03f;
-    real c4 = 2.18602232e-04f;
-    real c5 = -4.39662699e-06f;
-    real c6 = -3.52895722e-06f;
-    real c7 = 3.43716863e-07f;
-    real c8 = 2.85464647e-08f;
+    real c1 = 2.46640280e-01f;
+    real c2 = -4.17738687e-03f;
+    real c3 = -1.25274190e-03f;
+    real c4 = 2.18344489e-04f;
+    real c5 = -4.96334451e-06f;
+    real c6 = -3.46271327e-06f;
+    real c7 = 4.66171230e-07f;
+    real c8 = 2.32330351e-08f;
+    real c9 = -8.79116602e-09f;
     real w2 = w*w;
-    return (c0 + w*c1) + w2*((c2 + w*c3) + w2*((c4 + w*c5) + w2*((c6 + w*c7) + w2*c8)));
+    return c0 + w*((c1 + w*c2) + w2*((c3 + w*c4) + w2*((c5 + w*c6) + w2*((c7 + w*c8) + w2*c9))));
 }
 
-/* z/sqrt(w) of t = (sqrt(w) - c)/(sqrt(w) + c), w >= ERFINV_BORDER: 22.0 */
+/* z/sqrt(w) of t = (sqrt(w) - c)/(sqrt(w) + c), w >= ERFINV_BORDER: 0.52 */
 KERNEL real poly_erfinv_far(real t)
 {
-    real c0 = 9.59946156e-01f;
-    real c1 = 9.91249979e-02f;
-    real c2 = -7.91182071e-02f;
-    real c3 = -1.22598503e-02f;
-    real c4 = 1.19983844e-01f;
-    real c5 = -1.72634408e-01f;
-    real c6 = 9.23492387e-02f;
+    real c0 = 9.44267333e-01f;
+    real c1 = 1.16789006e-01f;
+    real c2 = -3.46664898e-02f;
+    real c3 = -1.30942926e-01f;
+    real c4 = 2.09945008e-01f;
+    real c5 = 1.26764728e-02f;
+    real c6 = -7.19734609e-01f;
+    real c7 = 1.52215290e+00f;
+    real c8 = -1.47719502e+00f;
+    real c9 = 5.73677003e-01f;
     real t2 = t*t;
-    return (c0 + t*c1) + t2*((c2 + t*c3) + t2*((c4 + t*c5) + t2*c6));
+    return c0 + t*((c1 + t*c2) + t2*((c3 + t*c4) + t2*((c5 + t*c6) + t2*((c7 + t*c8) + t2*c9))));
 }
 
-/* sqrt(s + 1/4) Gamma(s + 1/2)/Gamma(s + 1) of t = (s - c)/(s + c), s >= 1/2: 8.1 */
+/* sqrt(s + 1/4) Gamma(s + 1/2)/Gamma(s + 1) of t = (s - c)/(s + c), s >= 1/2: 0.21 */
 KERNEL real poly_gamma(real t)
 {
-    real c0 = 9.90831912e-01f;
-    real c1 = 2.71545798e-02f;
-    real c2 = -3.21848802e-02f;
-    real c3 = 2.23441627e-02f;
-    real c4 = -1.20520229e-02f;
-    real c5 = 5.07502630e-03f;
-    real c6 = -1.16926071e-03f;
+    real c0 = 9.84902084e-01f;
+    real c1 = 3.96119915e-02f;
+    real c2 = -3.66845541e-02f;
+    real c3 = 1.56370774e-02f;
+    real c4 = -4.49691294e-03f;
+    real c5 = 1.41765166e-03f;
+    real c6 = -4.56731301e-04f;
+    real c7 = 6.93825277e-05f;
     real t2 = t*t;
-    return (c0 + t*c1) + t2*((c2 + t*c3) + t2*((c4 + t*c5) + t2*c6));
+    return c0 + t*((c1 + t*c2) + t2*((c3 + t*c4) + t2*((c5 + t*c6) + t2*c7)));
 }

@@ -2,18 +2,18 @@
  * SPDX-License-Identifier: MIT */
 #pragma once
 
-#include "core/kernel/kmath_basic.h"
+#include "kmath_basic.h"
 
-/* (cos, sin) of q/4 + f turns, |f| <= 1/8, q the low two bits of `quadrant` */
-KERNEL real2 cossin_in_quadrant(real_bits quadrant, real f)
+/* (cos, sin) of q pi/2 + r + tail radians, |r| <= pi/4, |tail| an ulp of r, q the low two bits of `quadrant` */
+KERNEL real2 cossin_in_quadrant(real_bits quadrant, real r, real tail)
 {
-    real f2 = f*f;
-    real s  = f*poly_sin(f2);
-    real c  = 1.0f + f2*poly_cos(f2);
+    real r2 = r*r;
+    real s  = r + (tail + r*r2*poly_sin(r2));
+    real c  = 1.0f - (0.5f*r2 - (r2*r2*poly_cos(r2) - r*tail));
     real x  = (quadrant & 1u) != 0u ? s : c;
     real y  = (quadrant & 1u) != 0u ? c : s;
-    real_bits x_sign = ((quadrant + 1u) & 2u) << (SIGN_SHIFT);
-    real_bits y_sign = (quadrant & 2u) << (SIGN_SHIFT);
+    real_bits x_sign = ((quadrant + 1u) & 2u) << SIGN_SHIFT;
+    real_bits y_sign = (quadrant & 2u) << SIGN_SHIFT;
     return make2(real_of(bits_of(x) ^ x_sign) + 0.0f, real_of(bits_of(y) ^ y_sign) + 0.0f); /* -0 becomes 0 */
 }
 
@@ -21,7 +21,8 @@ KERNEL real2 cossin_in_quadrant(real_bits quadrant, real f)
 KERNEL real2 kcossin_turn(real u)
 {
     real shifted = 4.0f*u + ROUND_TO_INTEGER;
-    return cossin_in_quadrant(bits_of(shifted), u - 0.25f*(shifted - ROUND_TO_INTEGER));
+    real f       = u - 0.25f*(shifted - ROUND_TO_INTEGER);
+    return cossin_in_quadrant(bits_of(shifted), f*TWO_PI, f*TWO_PI_TAIL);
 }
 
 /* (cos x, sin x) (ULP_COSSIN), x in radians, |x| < 1000 / 1e5; pi/2 is taken off in three parts, so that the zeros keep
@@ -30,8 +31,8 @@ KERNEL real2 kcossin(real x)
 {
     real shifted = x*(2.0f*INV_PI) + ROUND_TO_INTEGER;
     real n       = shifted - ROUND_TO_INTEGER;
-    real r       = ((x - n*HALF_PI_HIGH) - n*HALF_PI_MIDDLE) - n*HALF_PI_LOW;
-    return cossin_in_quadrant(bits_of(shifted), r*INV_TWO_PI);
+    real r       = (x - n*HALF_PI_HIGH) - n*HALF_PI_MIDDLE;
+    return cossin_in_quadrant(bits_of(shifted), r - n*HALF_PI_LOW, 0.0f);
 }
 
 KERNEL real kcos(real x) { return kcossin(x).x; }
