@@ -24,7 +24,7 @@ static uint64_t next_random(uint64_t *state)
 /* A copy of exactly `size` bytes, so that reading past the end is a heap overflow. */
 static void give(const uint8_t *data, size_t size)
 {
-    uint8_t *copy = malloc(size ? size : 1);
+    uint8_t *copy = calloc(size ? size : 1, 1);
     if (!copy) abort();
     if (size) memcpy(copy, data, size);
     LLVMFuzzerTestOneInput(copy, size);
