@@ -1,6 +1,6 @@
 /* replay.c: runs a fuzzing program's corpus as an ordinary test, without libFuzzer.
  *
- *     replay_NAME [FOLDER]
+ *     replay_NAME FOLDER
  *
  * Each file is given as it is, cut short at 64 places, and with one byte changed at 256 places; so is an empty
  * input.  The places come from a fixed seed: a failure repeats.  Any crash, sanitizer report or hang is the failure.
@@ -36,9 +36,9 @@ static void give_variants(uint8_t *data, size_t size)
     uint64_t random = 1;
     give(data, size);
     if (size == 0 || size > LARGEST_CHANGED) return; /* a large file takes too long 320 times */
-    for (int i = 0; i < N_CUTS; i++) give(data, next_random(&random)%size);
+    for (int i = 0; i < N_CUTS; i++) give(data, next_random(&random) % size);
     for (int i = 0; i < N_CHANGES; i++) {
-        const size_t place = next_random(&random)%size;
+        const size_t place = next_random(&random) % size;
         const uint8_t kept = data[place];
         data[place] = (uint8_t)next_random(&random);
         give(data, size);
@@ -69,10 +69,14 @@ static int give_file(const char *path)
 
 int main(int argc, char **argv)
 {
-    give(NULL, 0);
     int n_files = 0;
-    DIR *folder = argc > 1 ? opendir(argv[1]) : NULL;
-    for (struct dirent *entry; folder && (entry = readdir(folder));) {
+    DIR *folder = argc == 2 ? opendir(argv[1]) : NULL;
+    if (!folder) {
+        fprintf(stderr, "replay: cannot open the folder of inputs %s\n", argc > 1 ? argv[1] : "");
+        return 1;
+    }
+    give(NULL, 0);
+    for (struct dirent *entry; (entry = readdir(folder));) {
         char path[4096];
         if (entry->d_name[0] == '.') continue;
         if (snprintf(path, sizeof path, "%s/%s", argv[1], entry->d_name) >= (int)sizeof path || !give_file(path)) {
@@ -82,7 +86,7 @@ int main(int argc, char **argv)
         }
         n_files++;
     }
-    if (folder) closedir(folder);
+    closedir(folder);
     printf("%d files replayed\n", n_files);
-    return 0;
+    return n_files > 0 ? 0 : 1; /* without inputs nothing is tested */
 }
