@@ -78,7 +78,8 @@ KERNEL real kerfcinv(real q)
 {
     real p = kclamp(q, REAL_MIN, 2.0f - REAL_EPSILON);
     real b = kmin(p, 2.0f - p);
-    return kcopysign(erf_inverse(1.0f - b, b), 1.0f - p);
+    real z = erf_inverse(1.0f - b, b);
+    return p > 1.0f ? -z : z;
 }
 
 /* Gamma(s + 1/2)/Gamma(s + 1) (ULP_GAMMA_RATIO) for s >= 1/2, which smaller s counts as; s <= 1e18.  Times sqrt(s + 1/4) it is

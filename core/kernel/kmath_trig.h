@@ -10,11 +10,13 @@ KERNEL real2 cossin_in_quadrant(real_bits quadrant, real r, real tail)
     real r2 = r*r;
     real s  = r + (tail + r*r2*poly_sin(r2));
     real c  = 1.0f - (0.5f*r2 - (r2*r2*poly_cos(r2) - r*tail));
-    real x  = (quadrant & 1u) != 0u ? s : c;
-    real y  = (quadrant & 1u) != 0u ? c : s;
-    real_bits x_sign = ((quadrant + 1u) & 2u) << SIGN_SHIFT;
-    real_bits y_sign = (quadrant & 2u) << SIGN_SHIFT;
-    return make2(real_of(bits_of(x) ^ x_sign) + 0.0f, real_of(bits_of(y) ^ y_sign) + 0.0f); /* -0 becomes 0 */
+    /* Exchange and negate in integers: SSE2 cannot compare 64-bit ones.  The added 0 turns -0 into 0. */
+    real_bits exchange = (0u - (quadrant & 1u)) & (bits_of(c) ^ bits_of(s));
+    real_bits x_sign   = ((quadrant + 1u) & 2u) << SIGN_SHIFT;
+    real_bits y_sign   = (quadrant & 2u) << SIGN_SHIFT;
+    real x = real_of(bits_of(c) ^ exchange ^ x_sign) + 0.0f;
+    real y = real_of(bits_of(s) ^ exchange ^ y_sign) + 0.0f;
+    return make2(x, y);
 }
 
 /* (cos(2 pi u), sin(2 pi u)) (ULP_TURN), |u| < 2^20; the eight zeros and ones at multiples of 1/4 are exact */
@@ -53,7 +55,7 @@ KERNEL real katan2(real y, real x)
     real v2   = v*v;
     real a    = far*QUARTER_PI + (v + (v*v2*poly_atan(v2) + far*(0.5f*HALF_PI_TAIL)));
     real b    = ay > ax ? HALF_PI - (a - HALF_PI_TAIL) : a;
-    real c    = (bits_of(x) & SIGN_BIT) != 0u ? PI - (b - 2.0f*HALF_PI_TAIL) : b;
+    real c    = ksign(x) < 0.0f ? PI - (b - 2.0f*HALF_PI_TAIL) : b;
     return kcopysign(c, y);
 }
 

@@ -1,0 +1,32 @@
+/* batch.h: the loops over batches, one table of them per instruction set.
+ * SPDX-License-Identifier: MIT */
+#pragma once
+
+#include <stddef.h>
+
+#include "facet/facet.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* At least the number of rows of model_table.h (checked by batch_text.h). */
+#define BATCH_MODELS 16
+
+/* Loops by model, in the order of model_table.h; params points to the model's prepared parameters. */
+typedef struct batch_loops {
+    const char *name;
+    void (*eval[BATCH_MODELS])(const void *params, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f);
+    void (*pdf[BATCH_MODELS])(const void *params, size_t n, facet_dirs wi, facet_dirs wo, float *pdf);
+    void (*sample[BATCH_MODELS])(const void *params, size_t n, facet_dirs wo, facet_dirs u, facet_samples samples);
+} batch_loops;
+
+extern const batch_loops facet_batch_base;
+#if defined(__x86_64__)
+extern const batch_loops facet_batch_avx2;
+extern const batch_loops facet_batch_avx512;
+#endif
+
+#ifdef __cplusplus
+}
+#endif

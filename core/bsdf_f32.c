@@ -1,0 +1,19 @@
+/* bsdf_f32.c: prepared materials in single precision, and glTF's material straight from its factors.
+ * SPDX-License-Identifier: MIT */
+#define FACET_REAL_IS_DOUBLE 0
+#define NAME(verb) facet_bsdf_##verb
+#define STORAGE facet_bsdf
+#define SAMPLE facet_sample
+#define TERMS facet_terms
+#include "bsdf_text.h"
+
+facet_bsdf facet_bsdf_metallic_roughness(const float base_color[3], float metallic, float roughness, float dielectric_F0,
+                                         float specular, const float specular_color[3])
+{
+    prepared p = {.model = MODEL_metallic_roughness};
+    p.of.metallic_roughness = metallic_roughness_of(load3(base_color), metallic, roughness, dielectric_F0, specular,
+                                                    load3(specular_color));
+    facet_bsdf bsdf;
+    memcpy(&bsdf, &p, sizeof p);
+    return bsdf;
+}

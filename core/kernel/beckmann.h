@@ -1,0 +1,157 @@
+/* beckmann.h: the Beckmann distribution, isotropic and anisotropic, with exact Smith masking (and the
+ * published rational fit), and visible-normal sampling.
+ *
+ * [cs500]   CS500 Project 3: D_b, G_1 and the sampling of Beckmann.
+ * [walter07] Walter et al., Microfacet models for refraction through rough surfaces, 2007, section 5.2.
+ * [heitz14] Heitz, Understanding the masking-shadowing function, JCGT 2014, eq. 54, 63 (exact Lambda).
+ * [heitz-deon14] Heitz and d'Eon, Importance sampling microfacet-based BSDFs using the distribution of
+ *           visible normals, 2014 (stretching; slopes of visible normals).
+ * SPDX-License-Identifier: MIT */
+#pragma once
+
+#include "microfacet.h"
+
+typedef microfacet_params beckmann_params;
+
+#define LARGEST_EXPONENT 1000.0f /* exp(-1000) is 0 in double as well */
+#define SLOPE_LIMIT 7.0f         /* P(|slope| > 7) = 4e-23 */
+#define SLOPE_STEPS 12
+
+/* The coefficients of the rational fit, as printed. */
+#define FIT_3_535 ((real)3.535)
+#define FIT_2_181 ((real)2.181)
+#define FIT_2_276 ((real)2.276)
+#define FIT_2_577 ((real)2.577)
+#define FIT_1_6 ((real)1.6)
+
+/* D(wm), 1/sr.  [cs500, D_b], tan^2/alpha^2 written with the stretched slopes. */
+KERNEL real beckmann_D(real3 wm, real alpha_x, real alpha_y)
+{
+    real z  = kmax(wm.z, COS_SMALLEST);
+    real sx = wm.x/(alpha_x*z);
+    real sy = wm.y/(alpha_y*z);
+    real z2 = z*z;
+    real e  = kexp(-kmin(sx*sx + sy*sy, LARGEST_EXPONENT));
+    return wm.z > 0 ? e*INV_PI/(alpha_x*alpha_y)/z2/z2 : (real)0;
+}
+
+/* Lambda(v) = exp(-a^2) (1/(a sqrt(pi)) - erfcx(a))/2, a the stretched cotangent.  [heitz14, eq. 54].
+ * Departure: written with W(a) = 1 - sqrt(pi) a erfcx(a), which has no cancellation. */
+KERNEL real beckmann_Lambda(real3 v, real alpha_x, real alpha_y)
+{
+    real a = kclamp(stretched_cot(v, alpha_x, alpha_y), COT_SMALLEST, COT_LARGEST);
+    return 0.5f*INV_SQRT_PI*kexp_neg_square(a)*kmills_w(a)/a;
+}
+
+/* The rational fit printed in [cs500, G_1 of Beckmann] and [walter07, below eq. 27], as Lambda = 1/G1 - 1:
+ * off by up to 3.1e-3, above 1 by 5.7e-5 just below a = 1.6, and 1 beyond. */
+KERNEL real rational_fit_Lambda(real a)
+{
+    real bounded = kclamp(a, COT_SMALLEST, 2);
+    real G1      = bounded*(FIT_3_535 + FIT_2_181*bounded)/(1 + bounded*(FIT_2_276 + FIT_2_577*bounded));
+    return a < FIT_1_6 ? 1/G1 - 1 : (real)0;
+}
+
+/* A normal with density D cos_m: tan^2 = -alpha^2 ln(1 - u.x).  [cs500, sampling of Beckmann]. */
+KERNEL real3 beckmann_sample_ndf(real ux, real uy, real alpha_x, real alpha_y)
+{
+    real2 azimuth = kcossin_turn(uy);
+    real r        = ksqrt(-klog1p(-kmin(ux, 1 - REAL_EPSILON)));
+    return normal_of_slopes(alpha_x*r*azimuth.x, alpha_y*r*azimuth.y);
+}
+
+/* The slope t towards the viewer of a visible normal, alpha = 1, for a viewer of cotangent a: its density is
+ * proportional to (a + t)+ exp(-t^2) [heitz-deon14, section 4], so that
+ *     P(slope > t) = (a erfc(t) + exp(-t^2)/sqrt(pi)) / (a erfc(-a) + exp(-a^2)/sqrt(pi)).
+ * Solves P = u by Newton's method kept inside a shrinking bracket: 2^-N_STEPS of it at worst, quadratic
+ * almost everywhere (residual in u: at most 3e-7 in float, 1e-15 in double, over a in [1e-3, 1e6]). */
+KERNEL real beckmann_visible_slope(real a, real u)
+{
+    real total = a*kerfc(-a) + INV_SQRT_PI*kexp_neg_square(a);
+    real low   = -kmin(a, SLOPE_LIMIT);
+    real high  = SLOPE_LIMIT;
+    real t     = kclamp(kerfcinv(kclamp(2*u, REAL_EPSILON, 2 - 2*REAL_EPSILON)), low, high);
+    for (int i = 0; i < SLOPE_STEPS; i++) {
+        real e        = INV_SQRT_PI*kexp_neg_square(t);
+        real residual = a*kerfc(t) + e - u*total;
+        real slope    = -2*(a + t)*e;
+        low           = residual > 0 ? t : low;
+        high          = residual > 0 ? high : t;
+        real newton   = t - residual/(slope < -REAL_MIN ? slope : -REAL_MIN);
+        real middle   = 0.5f*(low + high);
+        t             = (newton >= low) & (newton <= high) ? newton : middle;
+    }
+    return t;
+}
+
+/* A normal with density D(wm) G1(wo) (wo.wm)+/cos_o.  [heitz-deon14]: stretch wo, sample the two slopes
+ * for alpha = 1 (the one across the viewer's plane is an independent Gaussian), turn, and unstretch. */
+KERNEL real3 beckmann_sample_vndf(real3 wo, real ux, real uy, real alpha_x, real alpha_y)
+{
+    real x       = alpha_x*wo.x;
+    real y       = alpha_y*wo.y;
+    real sin     = ksqrt(x*x + y*y);
+    int has_side = sin > REAL_MIN;
+    real inv     = 1/(has_side ? sin : (real)1);
+    real cos_phi = has_side ? x*inv : (real)1;
+    real sin_phi = has_side ? y*inv : (real)0;
+    real a       = kclamp(kabs(wo.z)*inv, COT_SMALLEST, COT_LARGEST);
+    real towards = beckmann_visible_slope(has_side ? a : COT_LARGEST, ux);
+    real across  = kerfcinv(kclamp(2*uy, REAL_EPSILON, 2 - 2*REAL_EPSILON));
+    /* Slopes are -m.x/m.z: a normal that leans towards the viewer has t > 0 with m.x along wo. */
+    real mx = cos_phi*towards - sin_phi*across;
+    real my = sin_phi*towards + cos_phi*across;
+    return normal_of_slopes(alpha_x*mx, alpha_y*my);
+}
+
+KERNEL real beckmann_masking(beckmann_params p, real3 v)
+{
+    real exact = beckmann_Lambda(v, p.alpha_x, p.alpha_y);
+    real fit   = rational_fit_Lambda(stretched_cot(v, p.alpha_x, p.alpha_y));
+    return p.masking == MASKING_PUBLISHED ? fit : exact;
+}
+
+KERNEL real3 beckmann_eval(beckmann_params p, real3 wi, real3 wo)
+{
+    real3 wm = half_vector(wi, wo);
+    return microfacet_eval(p, wi, wo, wm, beckmann_D(wm, p.alpha_x, p.alpha_y), beckmann_masking(p, wi),
+                           beckmann_masking(p, wo));
+}
+
+KERNEL real beckmann_pdf(beckmann_params p, real3 wi, real3 wo)
+{
+    real3 wm = half_vector(wi, wo);
+    return microfacet_pdf(p, wi, wo, wm, beckmann_D(wm, p.alpha_x, p.alpha_y),
+                          beckmann_Lambda(wo, p.alpha_x, p.alpha_y));
+}
+
+KERNEL bsdf_sample beckmann_sample(beckmann_params p, real3 wo, real3 u)
+{
+    real3 wm = select3(p.sampling == SAMPLING_NDF, beckmann_sample_ndf(u.x, u.y, p.alpha_x, p.alpha_y),
+                       beckmann_sample_vndf(wo, u.x, u.y, p.alpha_x, p.alpha_y));
+    real3 wi = microfacet_choose(p, wo, wm, u);
+    return microfacet_complete(p, wi, wo, wm, u, beckmann_eval(p, wi, wo), beckmann_pdf(p, wi, wo));
+}
+
+/* D, Lambda, G1 at m. */
+KERNEL real3 beckmann_terms(beckmann_params p, real3 m)
+{
+    real Lambda = beckmann_masking(p, m);
+    return make3(beckmann_D(m, p.alpha_x, p.alpha_y), Lambda, m.z > 0 ? 1/(1 + Lambda) : (real)0);
+}
+
+#ifdef FACET_PARAMETERS
+static const facet_parameter beckmann_parameters[] = {
+    ALPHA_PARAMETERS,
+    MICROFACET_PARAMETERS("vndf|ndf", 1),
+};
+#endif
+
+#ifdef FACET_PREPARE
+static beckmann_params beckmann_prepare(const facet_material *m)
+{
+    beckmann_params p = microfacet_prepare(m);
+    alpha_prepare(m, &p);
+    return p;
+}
+#endif
