@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Every header compiles alone, as C11 and as C++17; the kernels, which are C only, as C11 for float and double.
 
-The compilers are $CC (cc) and $CXX (c++); without a C++ compiler that half is left out, and said so.
+Two kinds of file are no headers: core/*_text.h, which others include several times under different macros, and
+core/kernel/kmath_*.h, the parts of kmath.h.  The compilers are $CC (cc) and $CXX (c++); without a C++ compiler that half is left out, and said so.
 
 SPDX-License-Identifier: MIT
 """
+import fnmatch
 import os
 import shutil
 import subprocess
@@ -15,6 +17,7 @@ import tree
 COMMON = ["-fsyntax-only", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror", "-D_POSIX_C_SOURCE=200809L",
           "-D_DEFAULT_SOURCE", "-ffp-contract=off"]
 KERNELS = "core/kernel/"
+PARTS = ("core/*_text.h", "core/kernel/kmath_*.h")
 # A kernel's static functions are there for whoever includes it.
 KERNEL_FLAGS = ["-Wno-unused-function"]
 
@@ -48,6 +51,7 @@ def check(root):
         print("note: no C++ compiler was found: headers are not checked as C++ (Debian package g++)")
         cxx = None
     names = [n for n in tree.files(root, [".h"]) if tree.top(n) in tree.PRODUCT_FOLDERS + ["tests", "bench"]]
+    names = [n for n in names if not any(fnmatch.fnmatchcase(n, part) for part in PARTS)]
     jobs = [(name, what, command) for name in names for what, command in variants(name, cxx)]
     with ThreadPoolExecutor(2) as pool:
         problems = list(pool.map(lambda job: compile_alone(root, *job), jobs))
