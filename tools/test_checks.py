@@ -265,7 +265,7 @@ class Layout(unittest.TestCase):
         self.assertEqual(layout.tighten(old), new)
 
     def test_products_and_quotients(self):
-        self.assert_tight("x = a * b + c / d;\n", "x = a*b + c/d;\n")
+        self.assert_tight("x = a * b + c / d - e % f;\n", "x = a*b + c/d - e%f;\n")
 
     def test_pointers_stay(self):
         text = "char *p = (char *)q + f(int (*)(void), **r);\n"
@@ -291,6 +291,9 @@ class Layout(unittest.TestCase):
     def test_continuation_of_a_continuation(self):
         self.assert_tight("x = a * f(b * g(c,\n                d),\n          e);\n",
                           "x = a*f(b*g(c,\n            d),\n        e);\n")
+
+    def test_backslashes_of_a_macro_stay_in_one_column(self):
+        self.assert_tight("#define F(a)  \\\n    (a * a + \\\n     1)\n", "#define F(a)  \\\n    (a*a +   \\\n     1)\n")
 
     def test_next_statement_stays(self):
         text = "    for (i = 0; i < n; i++)\n        x = a;\n    y = b;\n"

@@ -36,9 +36,9 @@ static void give_variants(uint8_t *data, size_t size)
     uint64_t random = 1;
     give(data, size);
     if (size == 0 || size > LARGEST_CHANGED) return; /* a large file takes too long 320 times */
-    for (int i = 0; i < N_CUTS; i++) give(data, next_random(&random) % size);
+    for (int i = 0; i < N_CUTS; i++) give(data, next_random(&random)%size);
     for (int i = 0; i < N_CHANGES; i++) {
-        const size_t place = next_random(&random) % size;
+        const size_t place = next_random(&random)%size;
         const uint8_t kept = data[place];
         data[place] = (uint8_t)next_random(&random);
         give(data, size);
