@@ -64,7 +64,7 @@ enum { GLTF_I8 = 5120, GLTF_U8 = 5121, GLTF_I16 = 5122, GLTF_U16 = 5123, GLTF_U3
 
 typedef struct gltf_accessor {
     size_t view, offset, count; /* view NONE: zeros */
-    size_t stride, size;        /* of an element [byte] */
+    size_t size, tight, stride; /* bytes of an element, from one to the next if packed, and as they are */
     size_t n_components;        /* 1 scalar, 2..4 vectors and MAT2, 9 MAT3, 16 MAT4 */
     const char *type;           /* "VEC3" */
     int component;
@@ -132,7 +132,7 @@ typedef struct gltf {
 
     gltf_note notes[GLTF_MAX_NOTES];
     size_t n_notes;
-    scene *scene;
+    struct scene *scene;
 } gltf;
 
 /* An extension object with the places that lead to it. */

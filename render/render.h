@@ -40,7 +40,7 @@ typedef struct render_settings {
     uint32_t depth;                          /* most scattering events on a path; 0: lights seen directly */
     uint32_t n_threads;                      /* 0: one per processor */
     uint32_t seed;
-    strategy strategy;
+    enum strategy strategy;
     sampler_kind sampler;
     const char *isa;                         /* Embree's instruction set: "sse2", "sse4.2", "avx", "avx2", "avx512";
                                                 NULL: avx2 where there is one, else the best */
