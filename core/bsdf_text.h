@@ -101,3 +101,14 @@ TERMS NAME(terms)(const STORAGE *bsdf, const real m[3])
     }
     return (TERMS){.D = t.x, .Lambda = t.y, .G1 = t.z};
 }
+
+int NAME(lobes)(const STORAGE *bsdf)
+{
+    const prepared *p = content(bsdf);
+    switch (p->model) {
+#define LOBES_ROW(name, summary, source)                                                                               \
+    case MODEL_##name: return name##_lobes(p->of.name);
+        FACET_MODELS(LOBES_ROW)
+    }
+    return 0;
+}

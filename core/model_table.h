@@ -1,7 +1,7 @@
 /* model_table.h: the models, one row each.  A new model is a file in core/kernel/ and a row here.
  *
- * A kernel file NAME.h defines, beside its formulas, NAME_params, NAME_eval, NAME_pdf, NAME_sample and
- * NAME_terms; under FACET_PARAMETERS the array NAME_parameters, and under FACET_PREPARE NAME_prepare,
+ * A kernel file NAME.h defines, beside its formulas, NAME_params, NAME_eval, NAME_pdf, NAME_sample,
+ * NAME_lobes and NAME_terms; under FACET_PARAMETERS the array NAME_parameters, and under FACET_PREPARE NAME_prepare,
  * which turns a checked facet_material into NAME_params.
  * SPDX-License-Identifier: MIT */
 #pragma once

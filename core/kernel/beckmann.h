@@ -133,6 +133,8 @@ KERNEL bsdf_sample beckmann_sample(beckmann_params p, real3 wo, real3 u)
     return microfacet_complete(p, wi, wo, wm, u, beckmann_eval(p, wi, wo), beckmann_pdf(p, wi, wo));
 }
 
+KERNEL int beckmann_lobes(beckmann_params p) { return microfacet_lobes(p); }
+
 /* D, Lambda, G1 at m. */
 KERNEL real3 beckmann_terms(beckmann_params p, real3 m)
 {

@@ -73,6 +73,8 @@ KERNEL bsdf_sample ggx_sample(ggx_params p, real3 wo, real3 u)
     return microfacet_complete(p, wi, wo, wm, u, ggx_eval(p, wi, wo), ggx_pdf(p, wi, wo));
 }
 
+KERNEL int ggx_lobes(ggx_params p) { return microfacet_lobes(p); }
+
 /* D, Lambda, G1 at m. */
 KERNEL real3 ggx_terms(ggx_params p, real3 m)
 {

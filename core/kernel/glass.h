@@ -64,6 +64,12 @@ KERNEL bsdf_sample glass_sample(glass_params p, real3 wo, real3 u)
     return s;
 }
 
+KERNEL int glass_lobes(glass_params p)
+{
+    (void)p;
+    return LOBE_REFLECTION | LOBE_TRANSMISSION | LOBE_DELTA;
+}
+
 /* No distribution of normals. */
 KERNEL real3 glass_terms(glass_params p, real3 m)
 {

@@ -22,7 +22,7 @@ KERNEL real kmills_w(real x)
 {
     real a = kclamp(x, 0.0f, FAR_AWAY);
     real v = a/(a + MILLS_CENTRE);
-    return (1.0f + v*poly_mills(2.0f*v - 1.0f))/(1.0f + 2.0f*a*a);
+    return (1.0f + v*(1.0f - v)*poly_mills(2.0f*v - 1.0f))/(1.0f + 2.0f*a*a);
 }
 
 /* erfc x = 1 - erf x (ULP_ERFC); 0 for x beyond 9.34 / 26.6 */
@@ -57,7 +57,7 @@ KERNEL real erf_inverse(real a, real q)
     real_sum z2 = multiply_exactly(z, z);
     real e      = exp_of_sum(z2.hi, z2.lo);
     real erf_z  = z + z*poly_erf(kmin(z2.hi, 1.0f));
-    real d_near = (erf_z - a)*e;
+    real d_near = ((erf_z - a) - ((1.0f - a) - q))*e; /* the difference restores what the rounding of a took */
     real d_far  = q*e - kerfcx(z);
     real d      = HALF_SQRT_PI*(z < 0.75f ? d_near : d_far);
     z           = z - d/(1.0f + z*d);

@@ -35,8 +35,7 @@ KERNEL real kexp_neg_square(real x)
     return exp_of_sum(-x2.hi, -x2.lo);
 }
 
-/* e^x - 1 (ULP_EXPM1), -1 for x below -17.4 / -37.5, REAL_MAX from EXP_HIGHEST on; keeps the relative accuracy and
- * the sign of zero at 0 */
+/* e^x - 1 (ULP_EXPM1), -1 for x below -17.4 / -37.5, REAL_MAX from EXP_HIGHEST on; keeps the relative accuracy near 0 */
 KERNEL real kexpm1(real x)
 {
     real a    = kclamp(x, -40.0f, EXP_HIGHEST);
@@ -81,8 +80,7 @@ KERNEL real klog1p(real x)
 {
     real u = kmax(1.0f + x, REAL_MIN);
     real c = x > 1.0f ? 1.0f - (u - x) : x - (u - 1.0f);
-    real l = klog(u) + (x > -1.0f ? c/u : 0.0f);
-    return x == 0.0f ? x : l;
+    return klog(u) + (x > -1.0f ? c/u : 0.0f);
 }
 
 /* ln x as an unevaluated sum, relative error 2^-31 / 2^-60: 2 s is carried to twice the digits, s^3 q(s^2), at most

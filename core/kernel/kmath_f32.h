@@ -109,22 +109,22 @@ KERNEL real poly_erfcx(real t)
            t2*c11)))));
 }
 
-/* ((1 + 2 x^2) W(x) - 1)/v of t = 2 v - 1, v = x/(x + c): 0.6 */
+/* ((1 + 2 x^2) W(x) - 1)/(v (1 - v)) of t = 2 v - 1, v = x/(x + c): 0.12 */
 KERNEL real poly_mills(real t)
 {
-    real c0 = -2.21007228e-01f;
-    real c1 = 8.42673600e-01f;
-    real c2 = -1.37317896e+00f;
-    real c3 = 1.25804412e+00f;
-    real c4 = -6.69365823e-01f;
-    real c5 = 1.43822372e-01f;
-    real c6 = 5.14602736e-02f;
-    real c7 = -3.43062058e-02f;
-    real c8 = -3.77888163e-03f;
-    real c9 = 6.12935238e-03f;
-    real c10 = 2.67871801e-04f;
-    real c11 = -7.97133427e-04f;
-    real c12 = 3.66557397e-05f;
+    real c0 = -4.42014486e-01f;
+    real c1 = 1.24333286e+00f;
+    real c2 = -1.50302160e+00f;
+    real c3 = 1.01306045e+00f;
+    real c4 = -3.25722635e-01f;
+    real c5 = -3.80059592e-02f;
+    real c6 = 6.51895180e-02f;
+    real c7 = -3.76575231e-03f;
+    real c8 = -1.19757513e-02f;
+    real c9 = 1.04569178e-03f;
+    real c10 = 2.28305510e-03f;
+    real c11 = -9.99001495e-05f;
+    real c12 = -3.05568479e-04f;
     real t2 = t*t;
     return c0 + t*((c1 + t*c2) + t2*((c3 + t*c4) + t2*((c5 + t*c6) + t2*((c7 + t*c8) + t2*((c9 + t*c10) +
            t2*(c11 + t*c12))))));

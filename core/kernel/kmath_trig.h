@@ -62,6 +62,5 @@ KERNEL real katan2(real y, real x)
 /* arccos x in [0, pi] (ULP_ACOS); x beyond [-1, 1] counts as the nearer end */
 KERNEL real kacos(real x)
 {
-    real c = kclamp(x, -1.0f, 1.0f);
-    return katan2(ksqrt((1.0f - c)*(1.0f + c)), c);
+    return katan2(ksqrt(kmax((1.0f - x)*(1.0f + x), 0.0f)), x);
 }

@@ -35,6 +35,12 @@ KERNEL bsdf_sample lambert_sample(lambert_params p, real3 wo, real3 u)
     return s;
 }
 
+KERNEL int lambert_lobes(lambert_params p)
+{
+    (void)p;
+    return LOBE_REFLECTION | LOBE_DIFFUSE;
+}
+
 /* No distribution of normals. */
 KERNEL real3 lambert_terms(lambert_params p, real3 m)
 {

@@ -45,7 +45,7 @@ KERNEL real metallic_roughness_p_diffuse(metallic_roughness_params p, real3 wo)
 }
 
 /* The same as shared microfacet parameters, for sampling and density. */
-KERNEL microfacet_params metallic_roughness_lobes(metallic_roughness_params p, real3 wo)
+KERNEL microfacet_params metallic_roughness_mixture(metallic_roughness_params p, real3 wo)
 {
     microfacet_params m;
     m.kd           = p.kd;
@@ -77,17 +77,22 @@ KERNEL real3 metallic_roughness_eval(metallic_roughness_params p, real3 wi, real
 KERNEL real metallic_roughness_pdf(metallic_roughness_params p, real3 wi, real3 wo)
 {
     real3 wm = half_vector(wi, wo);
-    return microfacet_pdf(metallic_roughness_lobes(p, wo), wi, wo, wm, ggx_D(wm, p.alpha, p.alpha),
+    return microfacet_pdf(metallic_roughness_mixture(p, wo), wi, wo, wm, ggx_D(wm, p.alpha, p.alpha),
                           ggx_Lambda(wo, p.alpha, p.alpha));
 }
 
 KERNEL bsdf_sample metallic_roughness_sample(metallic_roughness_params p, real3 wo, real3 u)
 {
-    microfacet_params lobes = metallic_roughness_lobes(p, wo);
+    microfacet_params lobes = metallic_roughness_mixture(p, wo);
     real3 wm = ggx_sample_vndf(wo, u.x, u.y, p.alpha, p.alpha);
     real3 wi = microfacet_choose(lobes, wo, wm, u);
     return microfacet_complete(lobes, wi, wo, wm, u, metallic_roughness_eval(p, wi, wo),
                                metallic_roughness_pdf(p, wi, wo));
+}
+
+KERNEL int metallic_roughness_lobes(metallic_roughness_params p)
+{
+    return LOBE_REFLECTION | LOBE_GLOSSY | (max_of3(p.kd) > 0 ? LOBE_DIFFUSE : 0);
 }
 
 /* D, Lambda, G1 at m. */

@@ -157,6 +157,12 @@ KERNEL bsdf_sample microfacet_complete(microfacet_params p, real3 wi, real3 wo, 
     return s;
 }
 
+/* What the mixture's samples can be. */
+KERNEL int microfacet_lobes(microfacet_params p)
+{
+    return LOBE_REFLECTION | LOBE_GLOSSY | (p.p_diffuse > 0 ? LOBE_DIFFUSE : 0);
+}
+
 #ifdef FACET_PARAMETERS
 /* The rows that every distribution of normals ends with. */
 #define MICROFACET_PARAMETERS(SAMPLING_CHOICES, SAMPLING_LAST)                                                         \

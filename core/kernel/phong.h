@@ -131,6 +131,8 @@ KERNEL bsdf_sample phong_sample(phong_params p, real3 wo, real3 u)
     return microfacet_complete(p, wi, wo, wm, u, phong_eval(p, wi, wo), phong_pdf(p, wi, wo));
 }
 
+KERNEL int phong_lobes(phong_params p) { return microfacet_lobes(p); }
+
 /* D, Lambda, G1 at m. */
 KERNEL real3 phong_terms(phong_params p, real3 m)
 {
