@@ -1,0 +1,255 @@
+/* cmd_render.c: `facet render`, a scene to pictures.
+ * SPDX-License-Identifier: MIT */
+#include <inttypes.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/commands.h"
+#include "cli/progress.h"
+#include "cli/render_job.h"
+#include "cli/report.h"
+
+/* Where --time or --noise is to end the render and --spp does not say more. */
+enum { DEFAULT_SPP = 64, UNLIMITED_SPP = 65536, DEFAULT_DEPTH = 8, DEFAULT_HEIGHT = 540 };
+
+/* Set by the signal handler, read by the progress callback: the one thing that a signal can reach. */
+static volatile sig_atomic_t is_interrupted;
+
+static void interrupt(int signal_number)
+{
+    is_interrupted = signal_number != 0;
+    signal(SIGINT, SIG_DFL); /* a second signal ends the program at once */
+    signal(SIGTERM, SIG_DFL);
+}
+
+static void catch_signals(void)
+{
+    struct sigaction action = {.sa_handler = interrupt, .sa_flags = SA_RESTART};
+    sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
+}
+
+static bool on_progress(void *user, const render_progress *state)
+{
+    progress_show(user, state);
+    return !is_interrupted;
+}
+
+/* The command line as a shell would take it; NULL without memory. */
+static char *quote_command(int argc, char **argv)
+{
+    size_t size = sizeof "facet";
+    for (int i = 0; i < argc; i++) size += shell_quote(NULL, 0, argv[i]) + 1;
+    char *text = malloc(size);
+    if (!text) return NULL;
+    size_t n = (size_t)snprintf(text, size, "facet");
+    for (int i = 0; i < argc; i++) {
+        text[n++] = ' ';
+        n += shell_quote(text + n, size - n, argv[i]);
+    }
+    return text;
+}
+
+/* Without -o: the scene's base name in the current folder, as PNG. */
+static int name_output(render_options *o)
+{
+    const char *path = o->scene_path ? o->scene_path : "facet";
+    const char *slash = strrchr(path, '/'), *base = slash ? slash + 1 : path, *dot = strrchr(base, '.');
+    const size_t length = dot && dot != base ? (size_t)(dot - base) : strlen(base);
+    o->default_output = malloc(length + sizeof ".png");
+    if (!o->default_output) return fail_memory();
+    snprintf(o->default_output, length + sizeof ".png", "%.*s.png", (int)length, base);
+    o->outputs.items[o->outputs.n++] = o->default_output;
+    return 0;
+}
+
+/* Size from --size, else from the camera's aspect; crop within it. */
+static int choose_size(const render_options *o, const camera *c, render_settings *r)
+{
+    const double aspect = c->aspect > 0 ? c->aspect : 16.0/9;
+    r->height = o->size[1] ? o->size[1] : DEFAULT_HEIGHT;
+    r->width = o->size[0] ? o->size[0] : (size_t)fmin(fmax(round(DEFAULT_HEIGHT*aspect), 1), 65536);
+    if (r->width > IMAGE_PIXEL_CAP/r->height)
+        return fail(EXIT_USAGE, NULL, "--size", "%zux%zu is more than the %zu pixels that a picture can have", r->width,
+                    r->height, IMAGE_PIXEL_CAP);
+    const size_t *crop = o->crop;
+    if (crop[2] &&
+        (crop[0] >= r->width || crop[2] > r->width - crop[0] || crop[1] >= r->height || crop[3] > r->height - crop[1]))
+        return fail(EXIT_USAGE, NULL, "--crop", "%zu,%zu,%zu,%zu does not lie inside the picture of %zux%zu pixels",
+                    crop[0], crop[1], crop[2], crop[3], r->width, r->height);
+    r->crop_x = crop[0];
+    r->crop_y = crop[1];
+    r->crop_w = crop[2];
+    r->crop_h = crop[3];
+    return 0;
+}
+
+static void fill_settings(const render_options *o, size_t i_camera, progress *p, render_settings *r)
+{
+    const bool has_limit = o->time.is_given || o->noise.is_given;
+    r->camera = i_camera;
+    r->spp = o->spp ? (uint32_t)o->spp : has_limit ? UNLIMITED_SPP : DEFAULT_SPP;
+    r->depth = (uint32_t)o->depth;
+    r->n_threads = (uint32_t)o->threads;
+    r->seed = (uint32_t)o->seed;
+    r->strategy = strcmp(o->strategy, "explicit") == 0   ? STRATEGY_EXPLICIT
+                  : strcmp(o->strategy, "implicit") == 0 ? STRATEGY_IMPLICIT
+                                                         : STRATEGY_MIS;
+    r->sampler = strcmp(o->sampler, "random") == 0 ? SAMPLER_RANDOM : SAMPLER_SOBOL;
+    r->isa = o->isa;
+    r->time_limit = o->time.value;
+    r->noise_target = o->noise.value;
+    r->progress = on_progress;
+    r->user = p;
+}
+
+static void summarise(const render_options *o, const render_result *result)
+{
+    char time[32], noise[32] = "";
+    format_duration(result->seconds, time, sizeof time);
+    if (result->noise >= 0) snprintf(noise, sizeof noise, ", noise %.2g %%", 100*result->noise);
+    for (size_t i = 0; i < o->outputs.n; i++)
+        fprintf(stderr, "facet: wrote %s: %zux%zu, %" PRIu32 " spp, %s%s\n", o->outputs.items[i], result->picture.width,
+                result->picture.height, result->spp, time, noise);
+}
+
+/* What comes after rendering: warnings, files, the summary. */
+static int finish(const render_options *o, const scene *s, const render_settings *r, const render_result *result,
+                  warning_list *warnings)
+{
+    if (result->spp == 0) {
+        note("interrupted before one sample per pixel was done; nothing is written");
+        return EXIT_INTERRUPTED;
+    }
+    if (result->n_bad)
+        keep_warning(warnings,
+                     "%" PRIu64 " samples were not finite and count as black; the first is pixel %" PRIu32 ",%" PRIu32
+                     ", sample %" PRIu32,
+                     result->n_bad, result->bad[0].x, result->bad[0].y, result->bad[0].sample);
+    int status = write_outputs(o, s, r, result);
+    if (!status && !o->quiet) summarise(o, result);
+    if (is_interrupted && !o->quiet) note("interrupted after %" PRIu32 " samples per pixel", result->spp);
+    if (o->json) {
+        print_render_json(o, r, result, warnings, is_interrupted);
+        status = finish_stdout(status);
+    }
+    return status ? status : is_interrupted ? EXIT_INTERRUPTED : 0;
+}
+
+static int render_scene(render_options *o, warning_list *warnings)
+{
+    facet_error why = {0};
+    scene *s = NULL;
+    size_t i_camera = 0;
+    render_settings r;
+    render_result result = {0};
+    progress p = progress_start(o->quiet);
+    int status = prepare_scene(o, warnings, &s, &i_camera);
+    if (!status) {
+        render_settings_defaults(&r);
+        fill_settings(o, i_camera, &p, &r);
+        status = choose_size(o, &s->cameras[i_camera], &r);
+    }
+    if (!status) {
+        catch_signals();
+        const facet_status failed = render(s, &r, &result, &why);
+        progress_end(&p);
+        status = failed ? fail_with(FROM_INPUT, o->scene_path, &why) : finish(o, s, &r, &result, warnings);
+        if (!failed) render_result_destroy(&result);
+    }
+    scene_destroy(s);
+    return status;
+}
+
+/* Options that have no effect on the outputs named are told, not obeyed in silence. */
+static void warn_of_useless(const render_options *o, warning_list *warnings)
+{
+    size_t n_png = 0;
+    for (size_t i = 0; i < o->outputs.n; i++) n_png += has_extension(o->outputs.items[i], "png");
+    if (o->half && n_png == o->outputs.n) keep_warning(warnings, "--half has no effect: no output is an .exr file");
+    if (o->exposure.is_given && n_png == 0)
+        keep_warning(warnings, "--exposure has no effect: .exr files keep the scene's own radiance");
+}
+
+static int run(int argc, char **argv)
+{
+    render_options o = {.depth = DEFAULT_DEPTH, .strategy = "mis", .sampler = "sobol", .view = "filmic"};
+    warning_list warnings = {0};
+    int status = options_parse(&render_command, argc, argv, &o, &o.scene_path);
+    if (status != PARSE_GO) return status;
+    if (o.scene_path && strcmp(o.scene_path, "demo") == 0) o.scene_path = NULL;
+    o.command_line = quote_command(argc, argv);
+    status = o.command_line ? 0 : fail_memory();
+    if (!status && o.outputs.n == 0) status = name_output(&o);
+    if (!status) status = check_outputs(&o);
+    if (!status) {
+        warn_of_useless(&o, &warnings);
+        status = render_scene(&o, &warnings);
+    }
+    warning_list_destroy(&warnings);
+    free(o.default_output);
+    free(o.command_line);
+    return status;
+}
+
+#define AT(member) offsetof(render_options, member)
+
+static const option options[] = {
+    {"output", 'o', OPTION_TEXTS, AT(outputs), "FILE",
+     "picture to write, .exr (linear) or .png (as a screen shows it); may be repeated (default: the scene's name "
+     "with .png, in the current folder)",
+     0, 0, NULL},
+    {"spp", 's', OPTION_INTEGER, AT(spp), "N",
+     "samples per pixel (default 64; 65536 where --time or --noise ends the render)", 1, 1 << 24, NULL},
+    {"size", 0, OPTION_SIZE, AT(size), "WxH",
+     "size of the picture [pixel] (default: 540 rows in the camera's aspect, 960x540 if it has none)", 0, 0, NULL},
+    {"camera", 0, OPTION_TEXT, AT(camera), "NAME", "camera to look through (default: the first)", 0, 0, NULL},
+    {"env", 0, OPTION_TEXT, AT(env), "FILE|R,G,B",
+     "light from all around: an .hdr or .exr picture in latitude-longitude form, or a constant radiance", 0, 0, NULL},
+    {"env-scale", 0, OPTION_NUMBER, AT(env_scale), "X", "multiply the environment by X (default 1)", 0, 1e30, NULL},
+    {"depth", 0, OPTION_INTEGER, AT(depth), "N", "most scattering events on a path (default 8)", 0, 65535, NULL},
+    {"threads", 't', OPTION_INTEGER, AT(threads), "N",
+     "threads; the picture does not depend on them (default: one per processor)", 1, 1024, NULL},
+    {"seed", 0, OPTION_INTEGER, AT(seed), "N", "seed of the samples (default 0)", 0, UINT32_MAX, NULL},
+    {"crop", 0, OPTION_RECT, AT(crop), "X,Y,W,H", "render only this part of the picture [pixel]", 0, 0, NULL},
+    {"time", 0, OPTION_NUMBER, AT(time), "SECONDS", "stop after this time", 1e-3, 1e9, NULL},
+    {"noise", 0, OPTION_NUMBER, AT(noise), "TARGET", "stop at this estimated relative error, such as 0.01", 1e-6, 1,
+     NULL},
+    {"material", 0, OPTION_TEXTS, AT(materials), "NAME='SPEC'",
+     "give the scene's material NAME another reflection, such as body='ggx alpha=.2'; may be repeated", 0, 0, NULL},
+    {"strategy", 0, OPTION_CHOICE, AT(strategy), NULL,
+     "find light by rays towards lights, by rays that happen to hit them, or by both (default mis)", 0, 0,
+     "explicit|implicit|mis"},
+    {"sampler", 0, OPTION_CHOICE, AT(sampler), NULL, "where samples lie (default sobol)", 0, 0, "sobol|random"},
+    {"isa", 0, OPTION_CHOICE, AT(isa), NULL,
+     "instruction set of the ray tracer, on which the last bits of a picture depend (default avx2 where there is one)",
+     0, 0, "sse2|sse4.2|avx|avx2|avx512"},
+    {"exposure", 0, OPTION_NUMBER, AT(exposure), "EV", ".png: brighten by 2^EV (default 0)", -50, 50, NULL},
+    {"view", 0, OPTION_CHOICE, AT(view), NULL, ".png: how radiance becomes display values (default filmic)", 0, 0,
+     "standard|filmic|agx"},
+    {"half", 0, OPTION_FLAG, AT(half), NULL, ".exr: 16-bit floats instead of 32-bit ones", 0, 0, NULL},
+    {"quiet", 0, OPTION_FLAG, AT(quiet), NULL, "no progress and no notes; errors and warnings stay", 0, 0, NULL},
+    {"json", 0, OPTION_FLAG, AT(json), NULL, "print one JSON object about the render on stdout at the end", 0, 0, NULL},
+};
+
+const command render_command = {
+    .name = "render",
+    .summary = "render a scene",
+    .operands = "[SCENE.gltf|.glb]",
+    .max_operands = 1,
+    .description =
+        "Renders a glTF 2.0 scene, or the built-in demo scene if none is named.  A scene without a camera is seen\n"
+        "whole; one without any light stands in a uniform white environment.\n"
+        "Interrupted (Ctrl-C), it writes what it has and exits with status 130; a second Ctrl-C ends it at once.\n"
+        "Outputs are checked before rendering, written beside and renamed, and carry their provenance (version,\n"
+        "command line, scene hash, seed, ...) as metadata.\n",
+    .examples = "  facet render\n"
+                "  facet render scene.glb -o scene.exr -o scene.png --spp 256 --size 1280x720\n"
+                "  facet render scene.gltf --env studio.hdr --material body='ggx alpha=.1 metal=Au' --time 60\n",
+    .options = options,
+    .n_options = sizeof options/sizeof *options,
+    .run = run,
+};

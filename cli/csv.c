@@ -1,0 +1,141 @@
+/* csv.c: rows of numbers, streamed.
+ * SPDX-License-Identifier: MIT */
+#include "csv.h"
+
+#include <ctype.h>
+#include <errno.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <sys/stat.h>
+
+#include "cli/report.h"
+
+static const size_t ABSENT = (size_t)-1;
+
+int csv_fail(const csv_reader *reader, const char *format, ...)
+{
+    char text[512], place[32];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    snprintf(place, sizeof place, "line %zu", reader->line);
+    return fail(EXIT_INPUT, reader->name, place, "%s", text);
+}
+
+/* The next line that is neither empty nor a comment, without its end; *is_end if there is none. */
+static int next_line(csv_reader *reader, bool *is_end)
+{
+    for (;;) {
+        *is_end = !fgets(reader->text, CSV_LINE_CAP, reader->stream);
+        if (*is_end) {
+            if (!ferror(reader->stream)) return 0;
+            return fail(EXIT_INPUT, reader->name, NULL, "cannot be read: %s", strerror(errno));
+        }
+        reader->line++;
+        size_t n = strlen(reader->text);
+        if (n + 1 == CSV_LINE_CAP && reader->text[n - 1] != '\n')
+            return csv_fail(reader, "the line is longer than %d bytes, or not text", CSV_LINE_CAP - 2);
+        while (n && (reader->text[n - 1] == '\n' || reader->text[n - 1] == '\r')) reader->text[--n] = 0;
+        if (n && reader->text[0] != '#') return 0;
+    }
+}
+
+/* The field at *text without blanks around it, ended by 0; *text moves to the next one, or to NULL. */
+static char *next_field(char **text)
+{
+    char *start = *text, *end = start + strcspn(start, ",");
+    *text = *end ? end + 1 : NULL;
+    while (isspace((unsigned char)*start)) start++;
+    while (end > start && isspace((unsigned char)end[-1])) end--;
+    *end = 0;
+    return start;
+}
+
+static int read_header(csv_reader *reader, size_t n_required)
+{
+    bool is_end;
+    const int status = next_line(reader, &is_end);
+    if (status) return status;
+    if (is_end) return fail(EXIT_INPUT, reader->name, NULL, "is empty; it needs a header line with column names");
+    char *text = reader->text;
+    if (strncmp(text, "\xef\xbb\xbf", 3) == 0) text += 3; /* a byte order mark */
+    char *fields[256];
+    size_t n = 0;
+    while (text && n < 256) fields[n++] = next_field(&text);
+    if (text) return csv_fail(reader, "has more than 256 columns");
+    for (size_t i = 0; i < reader->n_columns; i++) {
+        const char *similar = NULL;
+        reader->position[i] = ABSENT;
+        for (size_t k = 0; k < n; k++) {
+            if (strcasecmp(fields[k], reader->columns[i]) == 0) similar = fields[k];
+            if (strcmp(fields[k], reader->columns[i]) != 0) continue;
+            if (reader->position[i] != ABSENT) return csv_fail(reader, "two columns are called `%s`", fields[k]);
+            reader->position[i] = k;
+        }
+        if (reader->position[i] != ABSENT || i >= n_required) continue;
+        if (similar) return csv_fail(reader, "no column `%s`; is `%s` meant to be it?", reader->columns[i], similar);
+        return csv_fail(reader, "no column `%s`; the header has to name it", reader->columns[i]);
+    }
+    return 0;
+}
+
+int csv_open(csv_reader *reader, const char *path, const char *const *columns, size_t n_columns, size_t n_required)
+{
+    const bool is_stdin = strcmp(path, "-") == 0;
+    *reader = (csv_reader){.name = is_stdin ? "stdin" : path, .n_columns = n_columns, .columns = columns};
+    reader->stream = is_stdin ? stdin : fopen(path, "r");
+    if (!reader->stream) return fail(EXIT_INPUT, path, NULL, "cannot be opened: %s", strerror(errno));
+    struct stat information;
+    if (fstat(fileno(reader->stream), &information) == 0 && S_ISDIR(information.st_mode))
+        return fail(EXIT_INPUT, path, NULL, "is a folder; name a CSV file, or - for stdin");
+    reader->text = malloc(CSV_LINE_CAP);
+    if (!reader->text) return fail_memory();
+    return read_header(reader, n_required);
+}
+
+/* The field as a finite number. */
+static int read_value(const csv_reader *reader, const char *column, const char *field, double *value)
+{
+    char *end;
+    *value = strtod(field, &end);
+    if (end == field || *end) return csv_fail(reader, "`%.40s` in column %s is not a number", field, column);
+    if (!isfinite(*value)) return csv_fail(reader, "`%.40s` in column %s is not finite", field, column);
+    if (end - field >= CSV_FIELD_CAP)
+        return csv_fail(reader, "a number in column %s has more than %d characters", column, CSV_FIELD_CAP - 1);
+    return 0;
+}
+
+int csv_read(csv_reader *reader, csv_row *row, bool *is_end)
+{
+    int status = next_line(reader, is_end);
+    if (status || *is_end) return status;
+    size_t missing = 0;
+    for (size_t i = 0; i < reader->n_columns; i++) {
+        row->values[i] = 0;
+        row->texts[i][0] = 0;
+        missing += reader->position[i] != ABSENT;
+    }
+    char *text = reader->text;
+    size_t k = 0;
+    for (; text; k++) {
+        const char *field = next_field(&text);
+        for (size_t i = 0; i < reader->n_columns; i++) {
+            if (reader->position[i] != k) continue;
+            status = read_value(reader, reader->columns[i], field, &row->values[i]);
+            if (status) return status;
+            memcpy(row->texts[i], field, strlen(field) + 1);
+            missing--;
+        }
+    }
+    return missing ? csv_fail(reader, "has only %zu fields; the header promises more", k) : 0;
+}
+
+void csv_close(csv_reader *reader)
+{
+    free(reader->text);
+    if (reader->stream && reader->stream != stdin) fclose(reader->stream);
+}

@@ -1,0 +1,175 @@
+/* outputs.c: the files that `facet render` writes, and what they tell about how they were made.
+ * SPDX-License-Identifier: MIT */
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/json_writer.h"
+#include "cli/render_job.h"
+#include "cli/report.h"
+#include "io/image_file.h"
+#include "render/view.h"
+
+/* ---- Before rendering -------------------------------------------------------------------------- */
+
+/* The folder must exist and take a new file, because outputs are written beside and renamed. */
+static int check_folder(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    char *folder = !slash ? strdup(".") : slash == path ? strdup("/") : strndup(path, (size_t)(slash - path));
+    if (!folder) return fail_memory();
+    struct stat information;
+    int status = 0;
+    if (stat(folder, &information) != 0)
+        status = fail(EXIT_WORLD, path, NULL, "the folder `%s` cannot be used: %s; make it first", folder,
+                      strerror(errno));
+    else if (!S_ISDIR(information.st_mode)) status = fail(EXIT_WORLD, path, NULL, "`%s` is not a folder", folder);
+    else if (access(folder, W_OK | X_OK) != 0)
+        status = fail(EXIT_WORLD, path, NULL, "the folder `%s` cannot be written to: %s", folder, strerror(errno));
+    free(folder);
+    return status;
+}
+
+int check_outputs(const render_options *o)
+{
+    for (size_t i = 0; i < o->outputs.n; i++) {
+        const char *path = o->outputs.items[i];
+        struct stat information;
+        if (!has_extension(path, "exr") && !has_extension(path, "png"))
+            return fail(EXIT_USAGE, path, NULL, "is neither an .exr nor a .png file; name one of these");
+        for (size_t k = 0; k < i; k++)
+            if (strcmp(path, o->outputs.items[k]) == 0)
+                return fail(EXIT_USAGE, path, NULL, "is named twice as an output; name it once");
+        const int status = check_folder(path);
+        if (status) return status;
+        if (stat(path, &information) == 0 && !S_ISREG(information.st_mode))
+            return fail(EXIT_WORLD, path, NULL, "exists and is not a regular file; name another output");
+    }
+    return 0;
+}
+
+/* ---- Provenance -------------------------------------------------------------------------------- */
+
+enum { MAX_TEXTS = 24, TEXT_SIZE = 320 };
+
+typedef struct provenance {
+    image_text pairs[MAX_TEXTS];
+    char values[MAX_TEXTS][TEXT_SIZE];
+    size_t n, n_exr; /* the first n_exr go into EXR, where the matrices have attributes of their own */
+    float world_to_camera[16], world_to_ndc[16];
+} provenance;
+
+static void add_text(provenance *p, const char *key, const char *value)
+{
+    p->pairs[p->n++] = (image_text){key, value};
+}
+
+__attribute__((format(printf, 3, 4))) static void add_printed(provenance *p, const char *key, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(p->values[p->n], TEXT_SIZE, format, arguments);
+    va_end(arguments);
+    add_text(p, key, p->values[p->n]);
+}
+
+static void add_matrix(provenance *p, const char *key, const float m[16])
+{
+    char text[TEXT_SIZE] = "";
+    size_t length = 0;
+    for (int i = 0; i < 16; i++)
+        length += (size_t)snprintf(text + length, sizeof text - length, "%s%.9g", i ? " " : "", (double)m[i]);
+    add_printed(p, key, "%s", text);
+}
+
+static void collect(provenance *p, const render_options *o, const scene *s, const render_settings *settings,
+                    const render_result *result)
+{
+    const camera *c = &s->cameras[settings->camera];
+    p->n = 0;
+    add_text(p, "facet:version", facet_version());
+    add_text(p, "facet:command", o->command_line);
+    add_printed(p, "facet:scene_hash", "%016" PRIx64, s->hash);
+    add_printed(p, "facet:seed", "%" PRIu32, settings->seed);
+    add_printed(p, "facet:spp", "%" PRIu32, result->spp);
+    add_printed(p, "facet:time_seconds", "%.3f", result->seconds);
+    add_text(p, "facet:isa", result->isa);
+    add_text(p, "facet:strategy", o->strategy);
+    add_text(p, "facet:sampler", o->sampler);
+    add_printed(p, "facet:depth", "%" PRIu32, settings->depth);
+    add_text(p, "facet:camera", c->name);
+    add_text(p, "facet:clamped", "0");
+    add_printed(p, "facet:dropped", "%" PRIu64, result->n_bad);
+    camera_matrices(c, settings->width, settings->height, p->world_to_camera, p->world_to_ndc);
+    p->n_exr = p->n;
+    add_printed(p, "facet:view", "%s, exposure %g", o->view, o->exposure.value);
+    add_matrix(p, "facet:world_to_camera", p->world_to_camera);
+    add_matrix(p, "facet:world_to_ndc", p->world_to_ndc);
+}
+
+/* ---- After rendering --------------------------------------------------------------------------- */
+
+static int write_png(const char *path, const render_options *o, const image *picture, const provenance *p)
+{
+    facet_error why = {0};
+    image shown = {0};
+    view v = VIEW_FILMIC;
+    view_find(o->view, &v);
+    facet_status status = view_picture(v, (float)o->exposure.value, picture, PIXEL_U8, &shown, &why);
+    if (!status) status = png_write(path, &shown, p->pairs, p->n, &why);
+    image_destroy(&shown);
+    return status ? fail_with(FROM_OUTPUT, path, &why) : 0;
+}
+
+int write_outputs(const render_options *o, const scene *s, const render_settings *settings, const render_result *result)
+{
+    provenance p;
+    int status = 0;
+    collect(&p, o, s, settings, result);
+    for (size_t i = 0; i < o->outputs.n; i++) {
+        const char *path = o->outputs.items[i];
+        int failed = 0;
+        facet_error why = {0};
+        if (has_extension(path, "png")) failed = write_png(path, o, &result->picture, &p);
+        else if (exr_write(path, &result->picture, o->half ? EXR_HALF : EXR_FLOAT, p.pairs, p.n_exr, p.world_to_camera,
+                           p.world_to_ndc, &why))
+            failed = fail_with(FROM_OUTPUT, path, &why);
+        if (failed) status = failed;
+    }
+    return status;
+}
+
+void print_render_json(const render_options *o, const render_settings *settings, const render_result *result,
+                       const warning_list *warnings, bool is_interrupted)
+{
+    json_writer j = json_put_start(stdout);
+    json_put_open(&j, NULL, '{');
+    json_put_text(&j, "version", facet_version());
+    json_put_open(&j, "outputs", '[');
+    for (size_t i = 0; i < o->outputs.n; i++) json_put_text(&j, NULL, o->outputs.items[i]);
+    json_put_close(&j, ']');
+    json_put_integer(&j, "width", result->picture.width);
+    json_put_integer(&j, "height", result->picture.height);
+    json_put_integer(&j, "spp", result->spp);
+    json_put_integer(&j, "seed", settings->seed);
+    json_put_bool(&j, "complete", result->is_complete);
+    json_put_bool(&j, "interrupted", is_interrupted);
+    json_put_number(&j, "seconds", result->seconds);
+    json_put_number(&j, "setup_seconds", result->setup_seconds);
+    json_put_integer(&j, "paths", result->n_paths);
+    json_put_integer(&j, "rays", result->n_rays);
+    json_put_integer(&j, "shadow_rays", result->n_shadow_rays);
+    json_put_number(&j, "noise", result->noise >= 0 ? result->noise : NAN);
+    json_put_integer(&j, "bad_samples", result->n_bad);
+    json_put_text(&j, "isa", result->isa);
+    json_put_open(&j, "warnings", '[');
+    for (size_t i = 0; i < warnings->n; i++) json_put_text(&j, NULL, warnings->items[i]);
+    json_put_close(&j, ']');
+    json_put_close(&j, '}');
+}

@@ -1,0 +1,62 @@
+/* render_job.h: the parts of `facet render`: its options, the scene that it prepares, the files it writes.
+ * SPDX-License-Identifier: MIT */
+#pragma once
+
+#include <stdbool.h>
+
+#include "cli/options.h"
+#include "render/render.h"
+#include "render/scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct render_options {
+    text_list outputs, materials;
+    uint64_t spp, depth, threads, seed;
+    size_t size[2], crop[4];
+    const char *camera, *env, *strategy, *sampler, *isa, *view;
+    option_number env_scale, time, noise, exposure;
+    bool half, quiet, json;
+    /* what the command line as a whole leads to */
+    const char *scene_path; /* NULL: the demo scene */
+    char *default_output;   /* owned; NULL when outputs were named */
+    char *command_line;     /* owned; quoted for a shell */
+} render_options;
+
+/* Warnings, kept for --json after they were printed. */
+typedef struct warning_list {
+    char **items;
+    size_t n, n_dropped;
+} warning_list;
+
+/* Prints a warning and keeps it; beyond a cap it is only counted. */
+void keep_warning(warning_list *list, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void warning_list_destroy(warning_list *list);
+
+/* A gltf_warning that keeps: user points to a warning_source. */
+typedef struct warning_source {
+    warning_list *list;
+    const char *path;
+} warning_source;
+void keep_gltf_warning(void *user, const char *text);
+
+/* Loads the scene and applies camera, environment and material options; *i_camera is the one to use.  Returns
+ * 0 or the exit status of the error that it printed; *result is the caller's to destroy in both cases. */
+int prepare_scene(const render_options *o, warning_list *warnings, scene **result, size_t *i_camera);
+
+/* Refuses outputs that could not be written at the end: unknown kinds, missing folders, repeated names. */
+int check_outputs(const render_options *o);
+
+/* Writes all outputs with their provenance.  One that fails does not keep the others from being written. */
+int write_outputs(const render_options *o, const scene *s, const render_settings *settings,
+                  const render_result *result);
+
+/* The render's summary as one JSON object on stdout. */
+void print_render_json(const render_options *o, const render_settings *settings, const render_result *result,
+                       const warning_list *warnings, bool is_interrupted);
+
+#ifdef __cplusplus
+}
+#endif
