@@ -22,6 +22,6 @@
 #endif
 
 #include "kmath_basic.h"
+#include "kmath_erf.h"
 #include "kmath_exp.h"
 #include "kmath_trig.h"
-#include "kmath_erf.h"

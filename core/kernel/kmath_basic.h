@@ -7,27 +7,27 @@
 #include "real.h"
 
 #if FACET_REAL_IS_DOUBLE
-#define FRACTION_BITS 52
-#define SIGN_SHIFT    62 /* from bit 1 to the sign */
-#define SIGN_BIT      UINT64_C(0x8000000000000000)
-#define ONE_BITS      UINT64_C(0x3ff0000000000000)
-#define FRACTION_MASK UINT64_C(0x000fffffffffffff)
-#define SQRT_HALF_BITS UINT64_C(0x3fe6a09e667f3bcd) /* sqrt(1/2) */
-#define INTEGER_BITS  UINT64_C(0x4330000000000000)  /* 2^52: its low bits count in units of one */
-#define HIGH_HALF     UINT64_C(0xfffffffff8000000)  /* keeps 26 of the 53 bits of a significand */
-#define ROUND_TO_INTEGER 6755399441055744.0         /* 1.5 * 2^52 */
-#define EXPONENT_BIAS 1023
+#define FRACTION_BITS    52
+#define SIGN_SHIFT       62 /* from bit 1 to the sign */
+#define SIGN_BIT         UINT64_C(0x8000000000000000)
+#define ONE_BITS         UINT64_C(0x3ff0000000000000)
+#define FRACTION_MASK    UINT64_C(0x000fffffffffffff)
+#define SQRT_HALF_BITS   UINT64_C(0x3fe6a09e667f3bcd) /* sqrt(1/2) */
+#define INTEGER_BITS     UINT64_C(0x4330000000000000) /* 2^52: its low bits count in units of one */
+#define HIGH_HALF        UINT64_C(0xfffffffff8000000) /* keeps 26 of the 53 bits of a significand */
+#define ROUND_TO_INTEGER 6755399441055744.0           /* 1.5 * 2^52 */
+#define EXPONENT_BIAS    1023
 #else
-#define FRACTION_BITS 23
-#define SIGN_SHIFT    30
-#define SIGN_BIT      UINT32_C(0x80000000)
-#define ONE_BITS      UINT32_C(0x3f800000)
-#define FRACTION_MASK UINT32_C(0x007fffff)
-#define SQRT_HALF_BITS UINT32_C(0x3f3504f3)
-#define INTEGER_BITS  UINT32_C(0x4b000000) /* 2^23 */
-#define HIGH_HALF     UINT32_C(0xfffff000) /* keeps 12 of the 24 bits */
-#define ROUND_TO_INTEGER 12582912.0f       /* 1.5 * 2^23 */
-#define EXPONENT_BIAS 127
+#define FRACTION_BITS    23
+#define SIGN_SHIFT       30
+#define SIGN_BIT         UINT32_C(0x80000000)
+#define ONE_BITS         UINT32_C(0x3f800000)
+#define FRACTION_MASK    UINT32_C(0x007fffff)
+#define SQRT_HALF_BITS   UINT32_C(0x3f3504f3)
+#define INTEGER_BITS     UINT32_C(0x4b000000) /* 2^23 */
+#define HIGH_HALF        UINT32_C(0xfffff000) /* keeps 12 of the 24 bits */
+#define ROUND_TO_INTEGER 12582912.0f          /* 1.5 * 2^23 */
+#define EXPONENT_BIAS    127
 #endif
 
 KERNEL real_bits bits_of(real x)
@@ -74,7 +74,9 @@ KERNEL real kpow5(real x)
 }
 
 /* hi + lo, an unevaluated sum that carries about twice the digits of a real */
-typedef struct { real hi, lo; } real_sum;
+typedef struct {
+    real hi, lo;
+} real_sum;
 
 /* a + b exactly, for |a| >= |b| or a = 0 [dekker71] */
 KERNEL real_sum add_exactly(real a, real b)

@@ -1,7 +1,8 @@
 /* kmath_f32.h: constants and polynomials of kmath.h in float; include that.
  *
- * Written by tools/make_kmath.py, which has the derivation: change that, not this.  Beside each polynomial stands
- * the function that it approximates and the error it causes in the result, relative, in units of 2^-24.
+ * Written by tools/make_kmath.py, which has the derivation: change that, not this.  Beside each polynomial
+ * stands the function that it approximates and the error it causes in the result, relative, in units of
+ * 2^-24.
  * SPDX-License-Identifier: MIT */
 #pragma once
 
@@ -17,7 +18,6 @@
 #define TWO_PI_TAIL    (-1.74845553e-07f) /* 2 pi - TWO_PI */
 #define HALF_PI_TAIL   (-4.37113883e-08f) /* pi/2 - HALF_PI */
 #define TAN_PI_8       4.14213568e-01f
-#define FAR_AWAY       1.00000000e+09f /* beyond, 1/x^2 is still normal and all fits are constant */
 #define ERFCX_CENTRE   3.00000000e+00f
 #define MILLS_CENTRE   2.50000000e+00f
 #define GAMMA_CENTRE   6.99999988e-01f

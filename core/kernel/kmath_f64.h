@@ -1,7 +1,8 @@
 /* kmath_f64.h: constants and polynomials of kmath.h in double; include that.
  *
- * Written by tools/make_kmath.py, which has the derivation: change that, not this.  Beside each polynomial stands
- * the function that it approximates and the error it causes in the result, relative, in units of 2^-53.
+ * Written by tools/make_kmath.py, which has the derivation: change that, not this.  Beside each polynomial
+ * stands the function that it approximates and the error it causes in the result, relative, in units of
+ * 2^-53.
  * SPDX-License-Identifier: MIT */
 #pragma once
 
@@ -17,7 +18,6 @@
 #define TWO_PI_TAIL    2.4492935982947064e-16 /* 2 pi - TWO_PI */
 #define HALF_PI_TAIL   6.1232339957367660e-17 /* pi/2 - HALF_PI */
 #define TAN_PI_8       4.1421356237309503e-01
-#define FAR_AWAY       1.0000000000000000e+16 /* beyond, 1/x^2 is still normal and all fits are constant */
 #define ERFCX_CENTRE   4.0000000000000000e+00
 #define MILLS_CENTRE   4.0000000000000000e+00
 #define GAMMA_CENTRE   9.0000000000000002e-01
@@ -158,40 +158,39 @@ KERNEL real poly_erfcx(real t)
            t2*((c21 + t*c22) + t2*(c23 + t*c24))))))))))));
 }
 
-/* ((1 + 2 x^2) W(x) - 1)/(v (1 - v)) of t = 2 v - 1, v = x/(x + c): 0.052 */
+/* ((1 + 2 x^2) W(x) - 1)/(v (1 - v)) of t = 2 v - 1, v = x/(x + c): 0.17 */
 KERNEL real poly_mills(real t)
 {
     real c0 = -2.1171417445976021e-01;
-    real c1 = 7.2082162714524123e-01;
-    real c2 = -1.2355148573865835e+00;
-    real c3 = 1.4888771403022840e+00;
-    real c4 = -1.3899640760104308e+00;
-    real c5 = 1.0382618734264824e+00;
-    real c6 = -6.2050105351911033e-01;
-    real c7 = 2.8725092813823994e-01;
-    real c8 = -9.3018149792684884e-02;
-    real c9 = 1.3045464106459221e-02;
-    real c10 = 5.4248414121362727e-03;
-    real c11 = -3.6833858462495699e-03;
-    real c12 = 5.1834938538945058e-04;
-    real c13 = 3.5150128963478148e-04;
-    real c14 = -1.6267392208620544e-04;
-    real c15 = -1.6303236248200954e-05;
-    real c16 = 2.7794677828510241e-05;
-    real c17 = -1.7131899283580549e-06;
-    real c18 = -4.2794549180063981e-06;
-    real c19 = 6.9523325544586095e-07;
-    real c20 = 6.7057776183061056e-07;
-    real c21 = -1.4580184912682741e-07;
-    real c22 = -1.0711351111757563e-07;
-    real c23 = 2.2145589948936050e-08;
-    real c24 = 1.5068929478134529e-08;
-    real c25 = -1.9018799664657163e-09;
-    real c26 = -1.2739925663989940e-09;
+    real c1 = 7.2082162714524134e-01;
+    real c2 = -1.2355148573865797e+00;
+    real c3 = 1.4888771403022749e+00;
+    real c4 = -1.3899640760106693e+00;
+    real c5 = 1.0382618734267997e+00;
+    real c6 = -6.2050105351315266e-01;
+    real c7 = 2.8725092813315489e-01;
+    real c8 = -9.3018149869438349e-02;
+    real c9 = 1.3045464151705327e-02;
+    real c10 = 5.4248419968689465e-03;
+    real c11 = -3.6833860933829219e-03;
+    real c12 = 5.1834654272005340e-04;
+    real c13 = 3.5150216608580170e-04;
+    real c14 = -1.6266471182425804e-04;
+    real c15 = -1.6305314189970218e-05;
+    real c16 = 2.7774355166975971e-05;
+    real c17 = -1.7098692975686721e-06;
+    real c18 = -4.2488122864489577e-06;
+    real c19 = 6.9170314591150121e-07;
+    real c20 = 6.3951868795451052e-07;
+    real c21 = -1.4340994696509277e-07;
+    real c22 = -8.6884469967231918e-08;
+    real c23 = 2.1211222374283254e-08;
+    real c24 = 7.4237078232998584e-09;
+    real c25 = -1.7417808005211246e-09;
     real t2 = t*t;
     return c0 + t*((c1 + t*c2) + t2*((c3 + t*c4) + t2*((c5 + t*c6) + t2*((c7 + t*c8) + t2*((c9 + t*c10) +
            t2*((c11 + t*c12) + t2*((c13 + t*c14) + t2*((c15 + t*c16) + t2*((c17 + t*c18) + t2*((c19 + t*c20) +
-           t2*((c21 + t*c22) + t2*((c23 + t*c24) + t2*(c25 + t*c26)))))))))))));
+           t2*((c21 + t*c22) + t2*((c23 + t*c24) + t2*c25))))))))))));
 }
 
 /* z/erf(z) of w - ERFINV_BORDER/2, w = -ln(1 - erf(z)^2) <= ERFINV_BORDER: 5.0e+7 */

@@ -14,12 +14,12 @@ KERNEL real2 cossin_in_quadrant(real_bits quadrant, real r, real tail)
     real_bits exchange = (0u - (quadrant & 1u)) & (bits_of(c) ^ bits_of(s));
     real_bits x_sign   = ((quadrant + 1u) & 2u) << SIGN_SHIFT;
     real_bits y_sign   = (quadrant & 2u) << SIGN_SHIFT;
-    real x = real_of(bits_of(c) ^ exchange ^ x_sign) + 0.0f;
-    real y = real_of(bits_of(s) ^ exchange ^ y_sign) + 0.0f;
+    real x             = real_of(bits_of(c) ^ exchange ^ x_sign) + 0.0f;
+    real y             = real_of(bits_of(s) ^ exchange ^ y_sign) + 0.0f;
     return make2(x, y);
 }
 
-/* (cos(2 pi u), sin(2 pi u)) (ULP_TURN), |u| < 2^20; the eight zeros and ones at multiples of 1/4 are exact */
+/* (cos(2 pi u), sin(2 pi u)) (1.6 / 1.6 ulp), |u| < 2^20; the eight zeros and ones at multiples of 1/4 are exact */
 KERNEL real2 kcossin_turn(real u)
 {
     real shifted = 4.0f*u + ROUND_TO_INTEGER;
@@ -27,8 +27,8 @@ KERNEL real2 kcossin_turn(real u)
     return cossin_in_quadrant(bits_of(shifted), f*TWO_PI, f*TWO_PI_TAIL);
 }
 
-/* (cos x, sin x) (ULP_COSSIN), x in radians, |x| < 1000 / 1e5; pi/2 is taken off in three parts, so that the zeros keep
- * their relative accuracy */
+/* (cos x, sin x) (1.6 / 1.6 ulp to |x| = 7, 2.6 / 2.6 beyond), x in radians, |x| < 1000 / 1e5; pi/2 is taken off
+ * in three parts, so that the zeros keep their relative accuracy */
 KERNEL real2 kcossin(real x)
 {
     real shifted = x*(2.0f*INV_PI) + ROUND_TO_INTEGER;
@@ -40,8 +40,9 @@ KERNEL real2 kcossin(real x)
 KERNEL real kcos(real x) { return kcossin(x).x; }
 KERNEL real ksin(real x) { return kcossin(x).y; }
 
-/* The angle of the point (x, y) (ULP_ATAN2), in [-pi, pi], its sign that of y (of -0 too); 0 or pi, by the sign of x, at the origin.
- * |x| + |y| <= REAL_MAX.  With v = min/max of |x|, |y|: atan v = pi/4 + atan((v-1)/(v+1)) beyond tan(pi/8). */
+/* The angle of the point (x, y) (2.0 / 2.0 ulp), in [-pi, pi], its sign that of y (of -0 too); 0 or pi, by the
+ * sign of x, at the origin.  |x| + |y| <= REAL_MAX.  With v = min/max of |x|, |y|: beyond
+ * tan(pi/8), atan v = pi/4 + atan((v-1)/(v+1)). */
 KERNEL real katan2(real y, real x)
 {
     real ax   = kabs(x);
@@ -59,8 +60,5 @@ KERNEL real katan2(real y, real x)
     return kcopysign(c, y);
 }
 
-/* arccos x in [0, pi] (ULP_ACOS); x beyond [-1, 1] counts as the nearer end */
-KERNEL real kacos(real x)
-{
-    return katan2(ksqrt(kmax((1.0f - x)*(1.0f + x), 0.0f)), x);
-}
+/* arccos x in [0, pi] (2.7 / 2.6 ulp); x beyond [-1, 1] counts as the nearer end */
+KERNEL real kacos(real x) { return katan2(ksqrt(kmax((1.0f - x)*(1.0f + x), 0.0f)), x); }

@@ -20,19 +20,23 @@
 #if FACET_REAL_IS_DOUBLE
 typedef double real;
 typedef uint64_t real_bits; /* unsigned integer of the same width */
-#define REAL_MAX DBL_MAX
-#define REAL_MIN DBL_MIN /* smallest positive normal number */
+#define REAL_MAX     DBL_MAX
+#define REAL_MIN     DBL_MIN /* smallest positive normal number */
 #define REAL_EPSILON DBL_EPSILON
 #else
 typedef float real;
 typedef uint32_t real_bits;
-#define REAL_MAX FLT_MAX
-#define REAL_MIN FLT_MIN
+#define REAL_MAX     FLT_MAX
+#define REAL_MIN     FLT_MIN
 #define REAL_EPSILON FLT_EPSILON
 #endif
 
-typedef struct { real x, y; } real2;
-typedef struct { real x, y, z; } real3;
+typedef struct {
+    real x, y;
+} real2;
+typedef struct {
+    real x, y, z;
+} real3;
 
 /* Constants that binary cannot hold; the cast rounds each once to the precision of the build. */
 #define PI           ((real)3.14159265358979323846264338328)
