@@ -79,7 +79,7 @@ KERNEL real beckmann_visible_slope(real a, real u)
         high          = residual > 0 ? high : t;
         real newton   = t - residual/(slope < -REAL_MIN ? slope : -REAL_MIN);
         real middle   = 0.5f*(low + high);
-        t             = (newton >= low) & (newton <= high) ? newton : middle;
+        t             = ((newton >= low) & (newton <= high)) ? newton : middle;
     }
     return t;
 }

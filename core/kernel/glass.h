@@ -43,7 +43,7 @@ KERNEL bsdf_sample glass_sample(glass_params p, real3 wo, real3 u)
 {
     int is_inside  = wo.z < 0;
     int is_thin    = p.wall == WALL_THIN;
-    real eta       = is_inside & !is_thin ? 1/p.eta : p.eta; /* n on the far side / n on the viewer's side */
+    real eta       = (is_inside & !is_thin) ? 1/p.eta : p.eta; /* n on the far side / n on the viewer's side */
     real cos_o     = kabs(wo.z);
     real F1        = fresnel_dielectric(kmin(cos_o, 1), eta);
     real F         = is_thin ? 2*F1/(1 + F1) : F1;

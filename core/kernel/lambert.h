@@ -20,7 +20,7 @@ KERNEL real3 lambert_eval(lambert_params p, real3 wi, real3 wo)
 KERNEL real lambert_pdf(lambert_params p, real3 wi, real3 wo)
 {
     (void)p;
-    return (wi.z > 0) & (wo.z > 0) ? INV_PI*wi.z : (real)0;
+    return ((wi.z > 0) & (wo.z > 0)) ? INV_PI*wi.z : (real)0;
 }
 
 KERNEL bsdf_sample lambert_sample(lambert_params p, real3 wo, real3 u)

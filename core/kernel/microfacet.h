@@ -126,7 +126,7 @@ KERNEL real microfacet_pdf(microfacet_params p, real3 wi, real3 wo, real3 wm, re
     real all      = D*wm.z/(4*kmax(dot3(wo, wm), REAL_MIN));
     real specular = p.sampling == SAMPLING_NDF ? all : visible;
     real pdf      = p.p_diffuse*INV_PI*wi.z + (1 - p.p_diffuse)*specular;
-    return (wi.z > 0) & (wo.z > 0) ? pdf : (real)0;
+    return ((wi.z > 0) & (wo.z > 0)) ? pdf : (real)0;
 }
 
 /* Cosine-distributed direction.  [cs500, SampleBrdf, diffuse]: cos = sqrt(u.x), azimuth 2 pi u.y. */
