@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Every header compiles alone, as C11 and as C++17; the kernels, which are C only, as C11 for float and double.
 
-Two kinds of file are no headers: core/*_text.h, which others include several times under different macros, and
+Two kinds of file are no headers: *_text.h, which others include several times under different macros, and
 core/kernel/kmath_*.h, the parts of kmath.h.  The compilers are $CC (cc) and $CXX (c++); without a C++ compiler that half is left out, and said so.
 
 SPDX-License-Identifier: MIT
@@ -17,7 +17,7 @@ import tree
 COMMON = ["-fsyntax-only", "-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Werror", "-D_POSIX_C_SOURCE=200809L",
           "-D_DEFAULT_SOURCE", "-ffp-contract=off"]
 KERNELS = "core/kernel/"
-PARTS = ("core/*_text.h", "core/kernel/kmath_*.h")
+PARTS = ("core/*_text.h", "core/kernel/kmath_*.h", "tests/*_text.h", "tests/*_cases.h")
 # A kernel's static functions are there for whoever includes it.
 KERNEL_FLAGS = ["-Wno-unused-function"]
 
