@@ -5,7 +5,7 @@
 #include <stdlib.h>
 
 #include "cli/commands.h"
-#include "cli/csv.h"
+#include "cli/csv_reader.h"
 #include "cli/report.h"
 
 /* Rows that are evaluated in one batch. */

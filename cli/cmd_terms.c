@@ -4,7 +4,7 @@
 #include <stdio.h>
 
 #include "cli/commands.h"
-#include "cli/csv.h"
+#include "cli/csv_reader.h"
 #include "cli/report.h"
 
 typedef struct settings {

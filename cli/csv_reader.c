@@ -1,6 +1,6 @@
-/* csv.c: rows of numbers, streamed.
+/* csv_reader.c: rows of numbers, streamed.
  * SPDX-License-Identifier: MIT */
-#include "csv.h"
+#include "cli/csv_reader.h"
 
 #include <ctype.h>
 #include <errno.h>

@@ -1,4 +1,4 @@
-/* csv.h: numbers from a CSV file with a header line, a row at a time.
+/* csv_reader.h: numbers from a CSV file with a header line, a row at a time.
  *
  * Columns are found by name and may come in any order, with others beside them; fields are numbers as C
  * writes them, blanks around them do not count, quotes are not understood.  Lines end in LF or CR LF; empty
