@@ -198,7 +198,14 @@ class Headers(CheckTest):
     @unittest.skipUnless(shutil.which(os.environ.get("CXX", "c++")), "no C++ compiler")
     def test_header_that_is_no_cxx(self):
         self.write("io/a.h", "#pragma once\nvoid f(int class);\n")
-        self.assert_one(check_headers.check(self.root), "C++17")
+        self.assert_one(check_headers.check(self.root), "C++20")
+
+    @unittest.skipUnless(shutil.which(os.environ.get("CXX", "c++")), "no C++ compiler")
+    def test_public_header_that_needs_newer_cxx(self):
+        self.write("include/facet/a.h", "#pragma once\nstruct a { int b; };\n"
+                   "static inline struct a c(void) { struct a d = {.b = 1}; return d; }\n"
+                   "static inline int e(void) { return c().b; }\n")
+        self.assertTrue(any("C++17" in problem for problem in check_headers.check(self.root)))
 
     def test_header_without_guard(self):
         self.write("io/a.h", "void f(void);\n")
