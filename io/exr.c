@@ -126,7 +126,7 @@ static exr_context_initializer_t initializer(stream *s)
 
 static facet_status library_error(facet_error *why, const stream *s, exr_result_t code, const char *place)
 {
-    const char *text = s->message[0]              ? s->message
+    const char *text = s->message[0]             ? s->message
                        : code == EXR_ERR_SUCCESS ? "its header contradicts itself"
                                                  : exr_get_default_error_message(code);
     return facet_error_set(why, code == EXR_ERR_OUT_OF_MEMORY ? FACET_NO_MEMORY : FACET_BAD_FILE, place,
@@ -295,8 +295,9 @@ static facet_status check_window(reader *r, facet_error *why)
 
 static facet_status refuse_deep(facet_error *why)
 {
-    return facet_error_set(why, FACET_UNSUPPORTED, "", "deep pixels are not read; flatten the file first, such as "
-                                                       "with: oiiotool IN --flatten -o OUT");
+    return facet_error_set(why, FACET_UNSUPPORTED, "",
+                           "deep pixels are not read; flatten the file first, such as "
+                           "with: oiiotool IN --flatten -o OUT");
 }
 
 static facet_status check_coding(const reader *r, facet_error *why)
@@ -464,8 +465,8 @@ static facet_status read_pixels(reader *r, facet_error *why)
         return facet_error_set(why, FACET_NO_MEMORY, "", "no memory for %zu x %zu pixels", p->width, p->height);
     }
     exr_decode_pipeline_t decode = EXR_DECODE_PIPELINE_INITIALIZER;
-    const facet_status status =
-        r->storage == EXR_STORAGE_TILED ? read_tiles(r, &decode, why) : read_lines(r, &decode, why);
+    const facet_status status = r->storage == EXR_STORAGE_TILED ? read_tiles(r, &decode, why)
+                                                                : read_lines(r, &decode, why);
     if (decode.context) {
         exr_decoding_destroy(r->context, &decode);
     }
@@ -568,8 +569,8 @@ static void gather_rows(const image *picture, exr_precision precision, size_t y,
 }
 
 /* Tells the library where the channels lie in the block. */
-static void point_channels(exr_encode_pipeline_t *encode, const image *picture, exr_precision precision,
-                           size_t n_rows, const unsigned char *block)
+static void point_channels(exr_encode_pipeline_t *encode, const image *picture, exr_precision precision, size_t n_rows,
+                           const unsigned char *block)
 {
     const size_t size = precision == EXR_HALF ? 2 : 4;
     for (size_t c = 0; c < picture->n_channels; c++) {

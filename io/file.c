@@ -146,9 +146,8 @@ facet_status file_writer_open(file_writer *writer, const char *path, facet_error
         return facet_error_set(why, FACET_IO, "", "is a directory; name a file to write");
     }
     file_writer w = {0};
-    const int descriptor = is_written_in_place(path, exists, info.st_mode)
-                               ? open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC)
-                               : open_temporary(path, &w.temporary);
+    const int descriptor = is_written_in_place(path, exists, info.st_mode) ? open(path, O_WRONLY | O_NOCTTY | O_CLOEXEC)
+                                                                           : open_temporary(path, &w.temporary);
     if (descriptor < 0) {
         return system_error(why, "cannot create", errno);
     }

@@ -89,7 +89,7 @@ static bool value_of(const char *line, size_t length, const char *key, char *val
 /* Multiplies n numbers of the text into divisor; one number counts for all three. */
 static bool multiply_divisor(const char *text, size_t n, double divisor[3])
 {
-    double factor[3];
+    double factor[3] = {0};
     for (size_t i = 0; i < n; i++) {
         char *end;
         factor[i] = strtod(text, &end);
@@ -150,8 +150,7 @@ static bool read_axis(const char **line, const char *end, axis *a)
     }
     a->is_x = p[1] == 'X';
     a->is_reversed = a->is_x ? p[0] == '-' : p[0] == '+'; /* Radiance's y points up */
-    for (p += 3; p < end && *p == ' '; p++) {
-    }
+    for (p += 3; p < end && *p == ' '; p++) {}
     size_t length = 0;
     const char *first = p;
     for (; p < end && *p >= '0' && *p <= '9'; p++) {
@@ -319,6 +318,7 @@ facet_status hdr_decode(const unsigned char *bytes, size_t size, image *picture,
         free(pixels);
         return status;
     }
-    *picture = (image){.width = width, .height = n_lines*n/width, .n_channels = 3, .type = PIXEL_F32, .pixels = pixels};
+    *picture = (image){
+        .width = width, .height = n_lines*n/width, .n_channels = 3, .type = PIXEL_F32, .pixels = pixels};
     return FACET_OK;
 }

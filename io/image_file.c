@@ -61,7 +61,7 @@ facet_status image_decode(const unsigned char *bytes, size_t size, image *pictur
     if (size == 0) {
         return facet_error_set(why, FACET_BAD_FILE, "", "is empty; a picture was expected");
     }
-    for (size_t i = 0; i < sizeof KINDS / sizeof KINDS[0]; i++) {
+    for (size_t i = 0; i < sizeof KINDS/sizeof KINDS[0]; i++) {
         if (is_kind(&KINDS[i], bytes, size)) {
             return KINDS[i].decode ? KINDS[i].decode(bytes, size, picture, why)
                                    : facet_error_set(why, FACET_UNSUPPORTED, "",

@@ -201,8 +201,10 @@ static void set_texts(job *j, const image_text *text, size_t n_texts)
     j->texts = allocate(j, n_texts*sizeof *j->texts + 1);
     for (size_t i = 0; i < n_texts; i++) {
         /* libpng only reads through the two pointers that it wants without const. */
-        j->texts[i] = (png_text){.compression = PNG_TEXT_COMPRESSION_NONE, .key = (png_charp)text[i].key,
-                                 .text = (png_charp)text[i].value, .text_length = strlen(text[i].value)};
+        j->texts[i] = (png_text){.compression = PNG_TEXT_COMPRESSION_NONE,
+                                 .key = (png_charp)text[i].key,
+                                 .text = (png_charp)text[i].value,
+                                 .text_length = strlen(text[i].value)};
         if (!is_ascii(text[i].value)) {
             j->texts[i].compression = PNG_ITXT_COMPRESSION_NONE;
             j->texts[i].itxt_length = j->texts[i].text_length;

@@ -16,9 +16,9 @@
 
 #include "io/image_file.h"
 
-enum { UINT = 0, HALF = 1, FLOAT = 2 };          /* pixel types */
-enum { SCAN_LINES = 0, TILES = 1, MIPMAP = 2 };  /* layouts */
-enum { TILE = 2 };                               /* its side */
+enum { UINT = 0, HALF = 1, FLOAT = 2 };         /* pixel types */
+enum { SCAN_LINES = 0, TILES = 1, MIPMAP = 2 }; /* layouts */
+enum { TILE = 2 };                              /* its side */
 enum { TILED_FLAG = 0x200, DEEP_FLAG = 0x800, MULTIPART_FLAG = 0x1000 };
 
 typedef struct layout {
@@ -30,7 +30,7 @@ typedef struct layout {
     bool is_decreasing; /* the lines lie in the file from the bottom up */
     bool is_multipart;  /* a second part of one black pixel follows */
     int flags;
-    int missing_bytes;  /* of the first block */
+    int missing_bytes; /* of the first block */
 } layout;
 
 /* A file as it grows. */
@@ -195,7 +195,8 @@ static void put_block(file *f, const layout *l, int number)
         return;
     }
     const int x = is_level_1 ? 0 : number%n_x, y = is_level_1 ? 0 : number/n_x;
-    const int w = is_level_1 ? l->width/2 : l->width - x*TILE, h = is_level_1 ? l->height/2 : l->height - y*TILE;
+    const int w = is_level_1 ? l->width/2 : l->width - x*TILE,
+              h = is_level_1 ? l->height/2 : l->height - y*TILE;
     put_int(f, x);
     put_int(f, y);
     put_int(f, is_level_1);
@@ -205,8 +206,8 @@ static void put_block(file *f, const layout *l, int number)
 
 static void make_file(const layout *l, file *f)
 {
-    static const layout SECOND = {.channels = {"Y"}, .types = {HALF}, .sampling = 1, .width = 1, .height = 1,
-                                  .is_multipart = true};
+    static const layout SECOND = {
+        .channels = {"Y"}, .types = {HALF}, .sampling = 1, .width = 1, .height = 1, .is_multipart = true};
     const int n = count_blocks(l);
     put(f, "\x76\x2f\x31\x01", 4);
     put_int(f, 2 | l->flags | (l->kind != SCAN_LINES ? TILED_FLAG : 0) | (l->is_multipart ? MULTIPART_FLAG : 0));
@@ -278,8 +279,8 @@ static void assert_refuses(const layout *l, facet_status status, const char *par
 
 static const int RGB_SOURCES[] = {2, 1, 0}; /* B, G, R by name */
 
-static const layout RGB = {.channels = {"B", "G", "R"}, .types = {HALF, HALF, HALF}, .sampling = 1, .width = 5,
-                           .height = 3};
+static const layout RGB = {
+    .channels = {"B", "G", "R"}, .types = {HALF, HALF, HALF}, .sampling = 1, .width = 5, .height = 3};
 
 static void the_data_window_alone_makes_the_picture(void **state)
 {
@@ -330,12 +331,15 @@ static void the_first_part_is_read(void **state)
 static void sample_types_may_be_mixed_and_other_channels_left_out(void **state)
 {
     (void)state;
-    static const layout MIXED = {.channels = {"A", "B", "G", "R", "Z"}, .types = {HALF, FLOAT, UINT, HALF, FLOAT},
-                                 .sampling = 1, .width = 4, .height = 2};
+    static const layout MIXED = {.channels = {"A", "B", "G", "R", "Z"},
+                                 .types = {HALF, FLOAT, UINT, HALF, FLOAT},
+                                 .sampling = 1,
+                                 .width = 4,
+                                 .height = 2};
     static const int SOURCES[] = {3, 2, 1, 0};
     assert_reads(&MIXED, 4, SOURCES);
-    static const layout GREY = {.channels = {"A", "Y", "Z"}, .types = {FLOAT, HALF, UINT}, .sampling = 1, .width = 4,
-                                .height = 2};
+    static const layout GREY = {
+        .channels = {"A", "Y", "Z"}, .types = {FLOAT, HALF, UINT}, .sampling = 1, .width = 4, .height = 2};
     static const int GREY_SOURCES[] = {1, 0};
     assert_reads(&GREY, 2, GREY_SOURCES);
 }
@@ -346,7 +350,10 @@ static void what_is_not_read_is_refused_by_name(void **state)
     layout l = RGB;
     l.channels[0] = "C";
     assert_refuses(&l, FACET_UNSUPPORTED, "no channel B");
-    l = (layout){.channels = {"left.B", "left.G", "left.R"}, .types = {HALF, HALF, HALF}, .sampling = 1, .width = 2,
+    l = (layout){.channels = {"left.B", "left.G", "left.R"},
+                 .types = {HALF, HALF, HALF},
+                 .sampling = 1,
+                 .width = 2,
                  .height = 2};
     assert_refuses(&l, FACET_UNSUPPORTED, "left.R");
     l = (layout){.channels = {"Z"}, .types = {FLOAT}, .sampling = 1, .width = 2, .height = 2};

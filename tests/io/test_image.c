@@ -191,9 +191,9 @@ static void exr_half_rounds_to_nearest(void **state)
     for (int i = 0; i < N; i++) {
         values[i] = (float)ldexp(1.0 + next_random(&seed)*0x1p-32, i%44 - 28)*(i & 64 ? -1.0f : 1.0f);
     }
-    static const float EDGES[][2] = {{65519.996f, 65504.0f}, {65520.0f, INFINITY}, {1.00048828125f, 1.0f},
-                                     {1.00146484375f, 1.001953125f}, {0x1p-25f, 0.0f}, {0x1.8p-24f, 0x1p-23f}};
-    const int n_edges = sizeof EDGES / sizeof EDGES[0];
+    static const float EDGES[][2] = {{65519.996f, 65504.0f},         {65520.0f, INFINITY}, {1.00048828125f, 1.0f},
+                                     {1.00146484375f, 1.001953125f}, {0x1p-25f, 0.0f},     {0x1.8p-24f, 0x1p-23f}};
+    const int n_edges = sizeof EDGES/sizeof EDGES[0];
     for (int i = 0; i < n_edges; i++) {
         values[i] = EDGES[i][0];
     }
@@ -231,7 +231,8 @@ static void exr_keeps_text_and_matrices(void **state)
     size_t size;
     read_bytes(target, &bytes, &size);
     /* An attribute is name 0 type 0 length32 value. */
-    static const char SEED[] = "facet:seed\0string\0\2\0\0\0" "42";
+    static const char SEED[] = "facet:seed\0string\0\2\0\0\0"
+                               "42";
     assert_true(holds(bytes, size, SEED, sizeof SEED - 1));
     assert_true(holds(bytes, size, text[1].value, strlen(text[1].value)));
     assert_true(holds(bytes, size, text[2].key, strlen(text[2].key) + 1));
@@ -288,7 +289,10 @@ static void png_keeps_text_and_is_marked_srgb(void **state)
     unsigned char *bytes;
     size_t size;
     read_bytes(target, &bytes, &size);
-    assert_true(holds(bytes, size, "tEXtfacet:seed\0" "42", 17));
+    assert_true(holds(bytes, size,
+                      "tEXtfacet:seed\0"
+                      "42",
+                      17));
     /* iTXt: keyword 0, not compressed 0 0, no language 0, no translated keyword 0, UTF-8 */
     assert_true(holds(bytes, size, "iTXtfacet:scene\0\0\0\0\0\xc3\xa9t\xc3\xa9", 25));
     assert_true(holds(bytes, size, "sRGB", 4));
@@ -360,9 +364,9 @@ static size_t make_hdr(char *to, const char *variables, const char *resolution, 
 static void hdr_reads_all_eight_axis_orders(void **state)
 {
     (void)state;
-    static const char *const CASES[8][2] = {
-        {"-Y 3 +X 2", "012345"}, {"-Y 3 -X 2", "103254"}, {"+Y 3 +X 2", "452301"}, {"+Y 3 -X 2", "543210"},
-        {"+X 2 -Y 3", "024135"}, {"-X 2 -Y 3", "135024"}, {"+X 2 +Y 3", "420531"}, {"-X 2 +Y 3", "531420"}};
+    static const char *const CASES[8][2] = {{"-Y 3 +X 2", "012345"}, {"-Y 3 -X 2", "103254"}, {"+Y 3 +X 2", "452301"},
+                                            {"+Y 3 -X 2", "543210"}, {"+X 2 -Y 3", "024135"}, {"-X 2 -Y 3", "135024"},
+                                            {"+X 2 +Y 3", "420531"}, {"-X 2 +Y 3", "531420"}};
     for (size_t k = 0; k < 8; k++) {
         char file[256];
         const size_t size = make_hdr(file, "FORMAT=32-bit_rle_rgbe\n", CASES[k][0], CASES[k][1]);
@@ -389,11 +393,12 @@ static void hdr_divides_by_exposure_and_colorcorr(void **state)
     facet_error why = {0};
     assert_int_equal(image_decode((unsigned char *)file, size, &p, &why), FACET_OK);
     const float *pixel = p.pixels; /* (2, 3, 2)/128 before */
-    assert_true(pixel[0] == 2.0f/128.0f/8.0f && pixel[1] == 3.0f/128.0f/4.0f && pixel[2] == 2.0f/128.0f/16.0f);
+    assert_true(pixel[0] == 2.0f/128.0f/8.0f && pixel[1] == 3.0f/128.0f/4.0f &&
+                pixel[2] == 2.0f/128.0f/16.0f);
     image_destroy(&p);
-    static const char *const BAD[] = {"EXPOSURE=0\n", "EXPOSURE=-1\n", "EXPOSURE=x\n", "EXPOSURE=inf\n",
-                                      "COLORCORR=1 2\n", "EXPOSURE=1e200\nEXPOSURE=1e200\n"};
-    for (size_t i = 0; i < sizeof BAD / sizeof BAD[0]; i++) {
+    static const char *const BAD[] = {"EXPOSURE=0\n",   "EXPOSURE=-1\n",   "EXPOSURE=x\n",
+                                      "EXPOSURE=inf\n", "COLORCORR=1 2\n", "EXPOSURE=1e200\nEXPOSURE=1e200\n"};
+    for (size_t i = 0; i < sizeof BAD/sizeof BAD[0]; i++) {
         size = make_hdr(file, BAD[i], "-Y 3 +X 2", "555555");
         assert_decodes_to(file, size, FACET_BAD_FILE, "positive number");
     }
@@ -426,7 +431,9 @@ static void other_kinds_are_refused_by_name(void **state)
     (void)state;
     assert_decodes_to("RIFF\x10\0\0\0WEBPVP8 ", 16, FACET_UNSUPPORTED, "WebP");
     assert_decodes_to("\xabKTX 20\xbb\r\n\x1a\n", 12, FACET_UNSUPPORTED, "KTX2");
-    assert_decodes_to("\0\0\0\x1c" "ftypavif\0\0\0\0", 16, FACET_UNSUPPORTED, "AVIF");
+    assert_decodes_to("\0\0\0\x1c"
+                      "ftypavif\0\0\0\0",
+                      16, FACET_UNSUPPORTED, "AVIF");
     assert_decodes_to("GIF89a\1\0\1\0", 10, FACET_UNSUPPORTED, "GIF");
     assert_decodes_to("hello, world", 12, FACET_BAD_FILE, "not a picture");
     assert_decodes_to("", 0, FACET_BAD_FILE, "empty");

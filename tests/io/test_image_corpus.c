@@ -166,11 +166,11 @@ static void pngsuite_pictures_equal_their_references(void **state)
 static void environment_maps_load(void **state)
 {
     (void)state;
-    static const char *const NAMES[] = {"chinese_garden_1k.hdr", "lebombo_1k.hdr", "potsdamer_platz_1k.hdr",
-                                        "studio_small_03_1k.hdr", "courtyard_zip_half.exr",
-                                        "synthetic/one_texel_sun_1024x512.hdr"};
+    static const char *const NAMES[] = {"chinese_garden_1k.hdr",  "lebombo_1k.hdr",
+                                        "potsdamer_platz_1k.hdr", "studio_small_03_1k.hdr",
+                                        "courtyard_zip_half.exr", "synthetic/one_texel_sun_1024x512.hdr"};
     skip_without(ASSETS "/hdri");
-    for (size_t i = 0; i < sizeof NAMES / sizeof NAMES[0]; i++) {
+    for (size_t i = 0; i < sizeof NAMES/sizeof NAMES[0]; i++) {
         char path[1024];
         snprintf(path, sizeof path, "%s/hdri/%s", ASSETS, NAMES[i]);
         image p;
@@ -245,12 +245,12 @@ static void axes_agree_in_all_codings(void **state)
     static const struct {
         const char *variant;
         tolerance *allowed;
-    } CASES[] = {{"_none.exr", half_tolerance},        {"_rle.exr", half_tolerance},
-                 {"_piz_half.exr", half_tolerance},    {"_tiled64_zip.exr", half_tolerance},
-                 {"_pxr24.exr", pxr24_tolerance},      {".hdr", rgbe_tolerance}};
+    } CASES[] = {{"_none.exr", half_tolerance},     {"_rle.exr", half_tolerance},
+                 {"_piz_half.exr", half_tolerance}, {"_tiled64_zip.exr", half_tolerance},
+                 {"_pxr24.exr", pxr24_tolerance},   {".hdr", rgbe_tolerance}};
     image reference = read_axes("_zips_float.exr");
     const float *a = reference.pixels;
-    for (size_t i = 0; i < sizeof CASES / sizeof CASES[0]; i++) {
+    for (size_t i = 0; i < sizeof CASES/sizeof CASES[0]; i++) {
         image p = read_axes(CASES[i].variant);
         const float *b = p.pixels;
         for (size_t k = 0; k < WIDTH*HEIGHT*3; k++) {
