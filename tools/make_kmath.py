@@ -287,9 +287,9 @@ def header_text(is_double):
     kind = "double" if is_double else "float"
     out = [f"/* kmath_f{64 if is_double else 32}.h: constants and polynomials of kmath.h in {kind}; include that.\n"
            " *\n"
-           " * Written by tools/make_kmath.py, which has the derivation: change that, not this.  Beside each polynomial\n"
-           " * stands the function that it approximates and the error it causes in the result, relative, in units of\n"
-           f" * 2^-{bits}.\n"
+           " * Written by tools/make_kmath.py, which has the derivation: change that, not this.  Beside each\n"
+           " * polynomial stands the function that it approximates and the error it causes in the result, relative,\n"
+           f" * in units of 2^-{bits}.\n"
            " * SPDX-License-Identifier: MIT */\n"
            "#pragma once\n\n#include \"real.h\"\n\n"]
     for name, value, text in constants(is_double):

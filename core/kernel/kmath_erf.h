@@ -15,7 +15,7 @@ KERNEL real kerfcx(real x)
     return (1.0f + v*poly_erfcx(2.0f*v - 1.0f))/(1.0f + 2.0f*a);
 }
 
-/* W(x) = 1 - sqrt(pi) x erfcx(x) (3.6 / 3.8 ulp) for x >= 0; smaller x counts as 0.  Positive: 1 at 0, 1/(2 x^2)
+/* W(x) = 1 - sqrt(pi) x erfcx(x) (3.6 / 4.0 ulp) for x >= 0; smaller x counts as 0.  Positive: 1 at 0, 1/(2 x^2)
  * far out, where the difference itself would cancel.  The exact Smith masking of Beckmann's
  * distribution is Lambda(a) = exp(-a^2) W(a)/(2 a sqrt(pi)), a = 1/(alpha tan(theta)). */
 KERNEL real kmills_w(real x)

@@ -7,8 +7,8 @@
 /* 2^n of an integral n in [-126, 127] / [-1022, 1023]; exact */
 KERNEL real two_to(real n) { return real_of(((bits_of(n + ROUND_TO_INTEGER)) << FRACTION_BITS) + ONE_BITS); }
 
-/* exp(a + b) for |b| <= 2^-20 |a|: with n = round(a/ln 2) and r = a + b - n ln 2, the sum 1 + r + r^2 q(r) is multiplied
- * by 2^n by adding n to its exponent, which is right for every result that is a normal number. */
+/* exp(a + b) for |b| <= 2^-20 |a|.  With n = round(a/ln 2) and r = a + b - n ln 2 it is 2^n (1 + r + r^2 q(r));
+ * adding n to the exponent multiplies by 2^n, rightly for every result that is a normal number. */
 KERNEL real exp_of_sum(real a, real b)
 {
     real shifted = a*INV_LN_TWO + ROUND_TO_INTEGER;

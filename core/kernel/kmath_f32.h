@@ -1,8 +1,8 @@
 /* kmath_f32.h: constants and polynomials of kmath.h in float; include that.
  *
- * Written by tools/make_kmath.py, which has the derivation: change that, not this.  Beside each polynomial
- * stands the function that it approximates and the error it causes in the result, relative, in units of
- * 2^-24.
+ * Written by tools/make_kmath.py, which has the derivation: change that, not this.  Beside each
+ * polynomial stands the function that it approximates and the error it causes in the result, relative,
+ * in units of 2^-24.
  * SPDX-License-Identifier: MIT */
 #pragma once
 

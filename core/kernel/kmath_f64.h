@@ -1,8 +1,8 @@
 /* kmath_f64.h: constants and polynomials of kmath.h in double; include that.
  *
- * Written by tools/make_kmath.py, which has the derivation: change that, not this.  Beside each polynomial
- * stands the function that it approximates and the error it causes in the result, relative, in units of
- * 2^-53.
+ * Written by tools/make_kmath.py, which has the derivation: change that, not this.  Beside each
+ * polynomial stands the function that it approximates and the error it causes in the result, relative,
+ * in units of 2^-53.
  * SPDX-License-Identifier: MIT */
 #pragma once
 

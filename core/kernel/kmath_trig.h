@@ -9,7 +9,7 @@ KERNEL real2 cossin_in_quadrant(real_bits quadrant, real r, real tail)
 {
     real r2 = r*r;
     real s  = r + (tail + r*r2*poly_sin(r2));
-    real c  = 1.0f - (0.5f*r2 - (r2*r2*poly_cos(r2) - r*tail));
+    real c  = 1.0f - (0.5f*r2 - r2*r2*poly_cos(r2));
     /* Exchange and negate in integers: SSE2 cannot compare 64-bit ones.  The added 0 turns -0 into 0. */
     real_bits exchange = (0u - (quadrant & 1u)) & (bits_of(c) ^ bits_of(s));
     real_bits x_sign   = ((quadrant + 1u) & 2u) << SIGN_SHIFT;
@@ -56,7 +56,7 @@ KERNEL real katan2(real y, real x)
     real v2   = v*v;
     real a    = far*QUARTER_PI + (v + (v*v2*poly_atan(v2) + far*(0.5f*HALF_PI_TAIL)));
     real b    = ay > ax ? HALF_PI - (a - HALF_PI_TAIL) : a;
-    real c    = ksign(x) < 0.0f ? PI - (b - 2.0f*HALF_PI_TAIL) : b;
+    real c    = ksign(x) < 0.0f ? PI - b : b;
     return kcopysign(c, y);
 }
 
