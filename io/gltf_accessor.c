@@ -48,10 +48,11 @@ static bool read_type(const json_place *object, gltf_accessor *a)
     if (!json_want_present(&place) || !json_string_here(&place, &name)) return false;
     for (size_t i = 0; i < sizeof types/sizeof *types; i++)
         if (strcmp(types[i].name, name) == 0) {
-            const size_t column = types[i].rows*component_size(a->component);
+            const size_t column = types[i].rows*component_size(a->component), aligned = (column + 3)/4*4;
             a->type = types[i].name;
             a->n_components = types[i].rows*types[i].columns;
-            a->size = types[i].columns == 1 ? column : types[i].columns*((column + 3)/4*4);
+            a->size = (types[i].columns - 1)*aligned + column;
+            a->tight = types[i].columns == 1 ? column : types[i].columns*aligned;
             return true;
         }
     return json_fail(&place, FACET_BAD_FILE, "is \"%.20s\"; must be SCALAR, VEC2 to VEC4 or MAT2 to MAT4", name);
@@ -92,7 +93,7 @@ static bool declare_sparse(gltf *g, const json_place *accessor, gltf_accessor *a
         return json_fail(&indices, FACET_BAD_FILE, "componentType is %d; must be 5121, 5123 or 5125", c);
     return check_range(g, &indices, a->sparse_index_view, a->sparse_index_offset, a->n_sparse, component_size(c),
                        component_size(c)) &&
-           check_range(g, &values, a->sparse_value_view, a->sparse_value_offset, a->n_sparse, a->size, a->size);
+           check_range(g, &values, a->sparse_value_view, a->sparse_value_offset, a->n_sparse, a->size, a->tight);
 }
 
 static bool declare_accessor(gltf *g, const json_place *place, gltf_accessor *a)
@@ -107,7 +108,7 @@ static bool declare_accessor(gltf *g, const json_place *place, gltf_accessor *a)
         return false;
     if (a->count == 0) return json_fail(&count, FACET_BAD_VALUE, "is 0; must be at least 1");
     if (a->component == GLTF_F32 || a->component == GLTF_U32) a->is_normalized = false;
-    a->stride = a->size;
+    a->stride = a->tight;
     if (a->view != NONE) {
         const size_t stride = g->view[a->view].stride;
         if (stride && stride < a->size)
@@ -212,7 +213,7 @@ static bool substitute_sparse(gltf *g, const json_place *place, const gltf_acces
             return json_fail(place, FACET_BAD_FILE, "sparse index %zu is %zu; must grow and stay below %zu", i, at,
                              a->count);
         previous = at;
-        convert(a, values + a->sparse_value_offset + i*a->size, is_uint, elements + at*a->n_components);
+        convert(a, values + a->sparse_value_offset + i*a->tight, is_uint, elements + at*a->n_components);
     }
     return true;
 }

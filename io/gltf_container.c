@@ -43,9 +43,11 @@ bool gltf_open_glb(gltf *g, const unsigned char *bytes, size_t size, const unsig
     if (size < HEADER_SIZE) return json_fail(&g->root, FACET_BAD_FILE, "GLB: %zu bytes; the header alone has 12", size);
     const uint32_t version = little_u32(bytes + 4), length = little_u32(bytes + 8);
     if (version != 2) return json_fail(&g->root, FACET_UNSUPPORTED, "GLB version %u; must be 2", (unsigned)version);
-    if (length != size)
+    if (length < HEADER_SIZE || length > size)
         return json_fail(&g->root, FACET_BAD_FILE, "GLB: the header says %u bytes, the file has %zu", (unsigned)length,
                          size);
+    if (length < size) gltf_warn(g, &g->root, "GLB: the last %zu bytes of the file are ignored", size - length);
+    size = length;
     size_t at = HEADER_SIZE, chunk_size;
     uint32_t type;
     if (!read_chunk(g, bytes, size, &at, &type, &chunk_size)) return false;

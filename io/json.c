@@ -187,7 +187,7 @@ bool json_index_here(const json_place *place, size_t count, const char *what, si
     double number;
     if (!whole_here(place, WHOLE_NUMBER_CAP, &number)) return false;
     if (number >= (double)count)
-        return json_fail(place, FACET_BAD_VALUE, "is %.17g, but there are %zu %s", number, count, what);
+        return json_fail(place, FACET_BAD_VALUE, "is %.17g, but the number of %s is %zu", number, what, count);
     *value = (size_t)number;
     return true;
 }
