@@ -1,0 +1,52 @@
+/* lights.h: everything that emits: choosing one, a point on it, and the densities of both.
+ *
+ * A light is chosen with probability proportional to an estimate of its power; the sky counts as one light.
+ * Densities are per solid angle at the point that is lit, the choice of the light included, so that they
+ * can be compared with the density of a scattering sampler.  [cs500-corrected]: SampleLight, PdfLight.
+ * SPDX-License-Identifier: MIT */
+#pragma once
+
+#include <stdbool.h>
+
+#include "render/geometry.h"
+#include "render/scene.h"
+#include "render/sky.h"
+#include "render/surface.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct light_set light_set;
+
+/* The scene must stay until light_set_destroy. */
+facet_status light_set_create(const scene *s, light_set **result, facet_error *why);
+void light_set_destroy(light_set *set);
+
+/* Whether there is anything to sample. */
+bool light_set_is_empty(const light_set *set);
+
+const sky *light_set_sky(const light_set *set);
+
+/* What a light sends to a point.  pdf == 0: nothing.  is_delta: no scattered ray can meet this light, and pdf is
+ * the probability of choosing it. */
+typedef struct light_sample {
+    real3 direction; /* unit, to the light */
+    real3 target;    /* the point to be visible, already off its surface; unused when at infinity */
+    bool is_infinite, is_delta;
+    float pdf;       /* [1/sr] */
+    real3 radiance;  /* [W/(m^2 sr)]; for a delta light the irradiance on a plane across the light [W/m^2] */
+} light_sample;
+
+/* Draws a light and a point on it, for the point `from`; u: 32-bit fractions. */
+light_sample light_set_sample(const light_set *set, real3 from, const uint32_t u[3]);
+
+/* The density with which light_set_sample at `from` draws the direction to this hit of an emitting surface. */
+float light_set_pdf_of_hit(const light_set *set, real3 from, const hit *h, const surface *at);
+
+/* The same for the sky in a direction. */
+float light_set_pdf_of_sky(const light_set *set, real3 direction);
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,60 @@
+/* sampler.h: the numbers in [0,1) that place a path: pixel position, lobes, directions, lights.
+ *
+ * sobol: each group of up to three dimensions is a Sobol' point set of its own, whose order is shuffled and
+ * whose digits are Owen-scrambled by hashes of pixel, group and seed, so that groups are independent of
+ * each other while each stays well spread over the samples of a pixel.  [burley20] Burley, Practical
+ * hash-based Owen scrambling, JCGT 2020.  random: independent numbers by the same hashes.
+ *
+ * A number depends only on (seed, pixel, sample, group): never on threads or order.
+ * SPDX-License-Identifier: MIT */
+#pragma once
+
+#include <stdint.h>
+
+#include "render/render.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* What all paths of a picture share. */
+typedef struct sampler {
+    sampler_kind kind;
+    uint32_t seed;
+    uint32_t index_mask; /* 2^k - 1 with 2^k >= samples per pixel */
+} sampler;
+
+sampler sampler_create(sampler_kind kind, uint32_t seed, uint32_t spp);
+
+/* One path's position in its sequence. */
+typedef struct sample_stream {
+    uint32_t pixel; /* hash of the pixel and the seed */
+    uint32_t index; /* of the sample in the pixel */
+} sample_stream;
+
+sample_stream sampler_start(const sampler *s, uint32_t x, uint32_t y, uint32_t index);
+
+/* The three numbers of a group as 32-bit fractions.  Groups are numbered by the integrator. */
+typedef struct sample_point {
+    uint32_t u[3];
+} sample_point;
+sample_point sampler_point(const sampler *s, sample_stream stream, uint32_t group);
+
+/* A 32-bit fraction as a float in [0, 1 - 2^-24]. */
+static inline float fraction(uint32_t u)
+{
+    return (float)(u >> 8)*0x1p-24f;
+}
+
+/* A well-mixed 32-bit hash of two. */
+static inline uint32_t hash_pair(uint32_t a, uint32_t b)
+{
+    uint64_t x = ((uint64_t)a << 32 | b) + 0x9e3779b97f4a7c15u; /* the finaliser of splitmix64 */
+    x          = (x ^ x >> 30)*0xbf58476d1ce4e5b9u;
+    x          = (x ^ x >> 27)*0x94d049bb133111ebu;
+    return (uint32_t)(x >> 32) ^ (uint32_t)x;
+}
+
+#ifdef __cplusplus
+}
+#endif
