@@ -1,4 +1,4 @@
-/* bsdf_f32.c: prepared materials in single precision, and glTF's material straight from its factors.
+/* bsdf_f32.c: prepared materials in single precision, and two models straight from their values.
  * SPDX-License-Identifier: MIT */
 #define FACET_REAL_IS_DOUBLE 0
 #define NAME(verb) facet_bsdf_##verb
@@ -13,6 +13,15 @@ facet_bsdf facet_bsdf_metallic_roughness(const float base_color[3], float metall
     prepared p = {.model = MODEL_metallic_roughness};
     p.of.metallic_roughness = metallic_roughness_of(load3(base_color), metallic, roughness, dielectric_F0, specular,
                                                     load3(specular_color));
+    facet_bsdf bsdf;
+    memcpy(&bsdf, &p, sizeof p);
+    return bsdf;
+}
+
+facet_bsdf facet_bsdf_glass(float ior, const float tint[3], int is_thin)
+{
+    prepared p = {.model = MODEL_glass};
+    p.of.glass = (glass_params){.eta = ior, .tint = load3(tint), .wall = is_thin ? WALL_THIN : WALL_SOLID};
     facet_bsdf bsdf;
     memcpy(&bsdf, &p, sizeof p);
     return bsdf;

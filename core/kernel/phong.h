@@ -58,15 +58,20 @@ KERNEL real phong_series(real p, real z)
     return sum;
 }
 
-/* Away from grazing: Gauss's continued fraction of 2F1(b, 1; b + 3/2; x), evaluated from its end. */
-KERNEL real phong_fraction(real b, real x)
+/* Away from grazing: Gauss's continued fraction of 2F1(b, 1; b + 3/2; x), evaluated from its end, z = 1 - x.  A level is
+ * f = 1 - odd x/(1 - even x/f); its coefficient odd tends to 1 for large b, where the difference would lose as many
+ * digits as z has zeros, so that it is written with `rest` = 1 - odd, multiplied out. */
+KERNEL real phong_fraction(real b, real x, real z)
 {
     real c = b + 1.5f;
     real f = 1;
     for (int m = PHONG_FRACTION_LEVELS/2; m > 0; m--) {
         real even = m*(m + 0.5f)/((c + (2*m - 2))*(c + (2*m - 1)));
-        real odd  = (b + (m - 1))*(c + (m - 2))/((c + (2*m - 3))*(c + (2*m - 2)));
-        f         = 1 - odd*x/(1 - even*x/f);
+        real inv  = 1/((c + (2*m - 3))*(c + (2*m - 2)));
+        real odd  = (b + (m - 1))*(c + (m - 2))*inv;
+        real rest = (b*(2*m - 0.5f) + (m*(3*m - 2.5f) + 0.25f))*inv;
+        real tail = even*x/f;
+        f         = (rest + odd*z - tail)/(1 - tail);
     }
     return 1/f;
 }
@@ -89,7 +94,7 @@ KERNEL real phong_Lambda(real3 v, real exponent, real beta_inverse, real alpha_x
     real x_p       = beta_inverse*kexp(-p*klog1p(mu2));
     int is_grazing = (z*p < PHONG_SERIES_LIMIT) & (z < PHONG_SERIES_COS2);
     real series    = phong_series(p, is_grazing ? z : (real)0);
-    real fraction  = phong_fraction(b, is_grazing ? (real)0.5f : x);
+    real fraction  = phong_fraction(b, is_grazing ? (real)0.5f : x, is_grazing ? (real)0.5f : z);
     real near      = x_p*(0.5f/(b*root_z) + root_z*series) - 0.5f;
     real far       = x_p*fraction/(4*b*p*root_z);
     return is_grazing ? near : far;

@@ -140,6 +140,9 @@ FACET_API facet_status facet_bsdf64_prepare(const facet_material *material, face
 FACET_API facet_bsdf facet_bsdf_metallic_roughness(const float base_color[3], float metallic, float roughness,
                                                    float dielectric_F0, float specular, const float specular_color[3]);
 
+/* The model glass straight from its values.  ior in [0.1, 10], tint in [0,1]. */
+FACET_API facet_bsdf facet_bsdf_glass(float ior, const float tint[3], int is_thin);
+
 /* What a sample is.  A delta sample (smooth glass, mirrors) is one of finitely many directions: its
  * pdf is the probability of that direction [1], and eval and pdf of any direction are 0. */
 enum { FACET_REFLECTION = 1, FACET_TRANSMISSION = 2, FACET_DIFFUSE = 4, FACET_GLOSSY = 8, FACET_DELTA = 16 };
