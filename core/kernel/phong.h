@@ -58,9 +58,9 @@ KERNEL real phong_series(real p, real z)
     return sum;
 }
 
-/* Away from grazing: Gauss's continued fraction of 2F1(b, 1; b + 3/2; x), evaluated from its end, z = 1 - x.  A level is
- * f = 1 - odd x/(1 - even x/f); its coefficient odd tends to 1 for large b, where the difference would lose as many
- * digits as z has zeros, so that it is written with `rest` = 1 - odd, multiplied out. */
+/* Away from grazing: Gauss's continued fraction of 2F1(b, 1; b + 3/2; x) from its end, z = 1 - x.  A level is
+ * f = 1 - odd x/(1 - even x/f).  For large b, odd and x are near 1 and the difference would lose as many digits as z
+ * has zeros: it is written with `rest` = 1 - odd, multiplied out. */
 KERNEL real phong_fraction(real b, real x, real z)
 {
     real c = b + 1.5f;

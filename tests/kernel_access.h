@@ -1,0 +1,34 @@
+/* kernel_access.h: the kernels' functions that the public interface hides, in both precisions.
+ *
+ * Everything is passed as double; the single-precision table rounds its inputs once.
+ * SPDX-License-Identifier: MIT */
+#pragma once
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef enum kernel_distribution {
+    KERNEL_COSINE, /* the Lambertian lobe; no shape */
+    KERNEL_PHONG,  /* shape_x = exponent; isotropic */
+    KERNEL_BECKMANN,
+    KERNEL_GGX
+} kernel_distribution;
+
+typedef struct kernel_access {
+    const char *name;
+    double epsilon;
+    /* D(m) [1/sr]; m: unit. */
+    double (*D)(kernel_distribution which, double shape_x, double shape_y, const double m[3]);
+    /* A normal (a direction for the cosine lobe) of the whole distribution. */
+    void (*sample_ndf)(kernel_distribution which, double shape_x, double shape_y, double ux, double uy, double m[3]);
+    double (*fresnel_dielectric)(double c, double eta);
+    /* Schlick's approximation with the dielectric's reflectance at normal incidence. */
+    double (*fresnel_schlick)(double c, double eta);
+} kernel_access;
+
+extern const kernel_access kernel_access_f32, kernel_access_f64;
+
+#ifdef __cplusplus
+}
+#endif

@@ -1,0 +1,57 @@
+/* kernel_access_text.h: a table of kernel_access.h, written once for both precisions.  Included by
+ * kernel_access_f32.c and kernel_access_f64.c, which define FACET_REAL_IS_DOUBLE and ACCESS, the table's symbol.
+ * SPDX-License-Identifier: MIT */
+#include "tests/kernel_access.h"
+
+#include "core/kernel/beckmann.h"
+#include "core/kernel/ggx.h"
+#include "core/kernel/lambert.h"
+#include "core/kernel/phong.h"
+
+static double density(kernel_distribution which, double shape_x, double shape_y, const double m[3])
+{
+    const real x = (real)shape_x, y = (real)shape_y;
+    const real3 n = make3((real)m[0], (real)m[1], (real)m[2]);
+    switch (which) {
+    case KERNEL_COSINE: return (double)(n.z > 0 ? INV_PI : 0);
+    case KERNEL_PHONG: return (double)phong_D(n, x, 1, 1);
+    case KERNEL_BECKMANN: return (double)beckmann_D(n, x, y);
+    case KERNEL_GGX: return (double)ggx_D(n, x, y);
+    }
+    return 0;
+}
+
+static void sample_ndf(kernel_distribution which, double shape_x, double shape_y, double ux, double uy, double m[3])
+{
+    const real x = (real)shape_x, y = (real)shape_y, u = (real)ux, v = (real)uy;
+    real3 n = make3(0, 0, 0);
+    switch (which) {
+    case KERNEL_COSINE: n = sample_cosine(u, v); break;
+    case KERNEL_PHONG: n = phong_sample_ndf(u, v, x, 1, 1); break;
+    case KERNEL_BECKMANN: n = beckmann_sample_ndf(u, v, x, y); break;
+    case KERNEL_GGX: n = ggx_sample_ndf(u, v, x, y); break;
+    }
+    m[0] = (double)n.x;
+    m[1] = (double)n.y;
+    m[2] = (double)n.z;
+}
+
+static double dielectric(double c, double eta)
+{
+    return (double)fresnel_dielectric((real)c, (real)eta);
+}
+
+static double schlick(double c, double eta)
+{
+    const real3 F0 = splat3(fresnel_normal_incidence((real)eta));
+    return (double)fresnel_schlick(F0, splat3(1), (real)c).x;
+}
+
+const kernel_access ACCESS = {
+    .name = FACET_REAL_IS_DOUBLE ? "double" : "float",
+    .epsilon = (double)REAL_EPSILON,
+    .D = density,
+    .sample_ndf = sample_ndf,
+    .fresnel_dielectric = dielectric,
+    .fresnel_schlick = schlick,
+};
