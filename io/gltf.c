@@ -102,7 +102,8 @@ static bool check_version(gltf *g)
     if (!parse_version(version, &major, &minor))
         return json_fail(&version_place, FACET_BAD_FILE, "is \"%s\"; must be \"2.0\"", version);
     if (major != 2)
-        return json_fail(&version_place, FACET_UNSUPPORTED, "glTF %s is not supported; convert it to glTF 2.0", version);
+        return json_fail(&version_place, FACET_UNSUPPORTED, "glTF %s is not supported; convert it to glTF 2.0",
+                         version);
     if (!least) return true;
     int least_major, least_minor;
     if (!parse_version(least, &least_major, &least_minor))
@@ -125,15 +126,25 @@ typedef enum support {
 static support extension_support(const char *name)
 {
     static const char *const full[] = {
-        "KHR_mesh_quantization",   "KHR_texture_transform",          "KHR_lights_punctual",
-        "KHR_materials_unlit",     "KHR_materials_ior",              "KHR_materials_specular",
-        "KHR_materials_transmission", "KHR_materials_volume",        "KHR_materials_emissive_strength",
-        "KHR_materials_variants",  "KHR_xmp",                        "KHR_xmp_json_ld",
-        "EXT_mesh_gpu_instancing", "FACET_materials_bsdf",           "FACET_shape",
+        "KHR_mesh_quantization",
+        "KHR_texture_transform",
+        "KHR_lights_punctual",
+        "KHR_materials_unlit",
+        "KHR_materials_ior",
+        "KHR_materials_specular",
+        "KHR_materials_transmission",
+        "KHR_materials_volume",
+        "KHR_materials_emissive_strength",
+        "KHR_materials_variants",
+        "KHR_xmp",
+        "KHR_xmp_json_ld",
+        "EXT_mesh_gpu_instancing",
+        "FACET_materials_bsdf",
+        "FACET_shape",
     };
     static const char *const fallback[] = {
         "KHR_draco_mesh_compression", "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_texture_basisu",
-        "EXT_texture_webp", "EXT_texture_avif", "MSFT_texture_dds",
+        "EXT_texture_webp",           "EXT_texture_avif",        "MSFT_texture_dds",
     };
     for (size_t i = 0; i < sizeof full/sizeof *full; i++)
         if (strcmp(name, full[i]) == 0) return SUPPORT_FULL;
@@ -193,10 +204,9 @@ static bool find_arrays(gltf *g)
         const char *key;
         json_place *place;
     } arrays[] = {
-        {"buffers", &g->buffers},     {"bufferViews", &g->views},  {"accessors", &g->accessors},
-        {"images", &g->images},       {"samplers", &g->samplers},  {"textures", &g->textures},
-        {"materials", &g->materials}, {"meshes", &g->meshes},      {"nodes", &g->nodes},
-        {"skins", &g->skins},         {"cameras", &g->cameras},    {"scenes", &g->scenes},
+        {"buffers", &g->buffers},   {"bufferViews", &g->views}, {"accessors", &g->accessors}, {"images", &g->images},
+        {"samplers", &g->samplers}, {"textures", &g->textures}, {"materials", &g->materials}, {"meshes", &g->meshes},
+        {"nodes", &g->nodes},       {"skins", &g->skins},       {"cameras", &g->cameras},     {"scenes", &g->scenes},
     };
     for (size_t i = 0; i < sizeof arrays/sizeof *arrays; i++) {
         if (!json_read_array(&g->root, arrays[i].key, arrays[i].place)) return false;

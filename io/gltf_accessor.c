@@ -64,8 +64,10 @@ static bool check_range(gltf *g, const json_place *place, size_t view, size_t of
 {
     const size_t room = g->view[view].size;
     if (offset > room || size > room - offset || n - 1 > (room - offset - size)/stride)
-        return json_fail(place, FACET_BAD_FILE, "%zu elements of %zu bytes from byte %zu do not fit into bufferViews[%zu]"
-                         " of %zu bytes", n, size, offset, view, room);
+        return json_fail(place, FACET_BAD_FILE,
+                         "%zu elements of %zu bytes from byte %zu do not fit into bufferViews[%zu]"
+                         " of %zu bytes",
+                         n, size, offset, view, room);
     return true;
 }
 

@@ -29,8 +29,8 @@ static bool read_chunk(gltf *g, const unsigned char *bytes, size_t size, size_t 
     *length = little_u32(bytes + *at);
     *type = little_u32(bytes + *at + 4);
     if (*length > size - *at - CHUNK_HEADER_SIZE)
-        return json_fail(&g->root, FACET_BAD_FILE, "GLB: the chunk at byte %zu has %zu bytes, but only %zu are left", *at,
-                         *length, size - *at - CHUNK_HEADER_SIZE);
+        return json_fail(&g->root, FACET_BAD_FILE, "GLB: the chunk at byte %zu has %zu bytes, but only %zu are left",
+                         *at, *length, size - *at - CHUNK_HEADER_SIZE);
     if (*length%4 != 0)
         return json_fail(&g->root, FACET_BAD_FILE, "GLB: the chunk at byte %zu has %zu bytes; must be a multiple of 4",
                          *at, *length);

@@ -19,9 +19,9 @@ static bool add_target(gltf *g, const json_place *place, float weight, size_t n_
     float *offsets;
     if (!place->value || !base) return true;
     if (!gltf_find_accessor(g, place, &a) ||
-        !gltf_want_format(place, a, "VEC3", GLTF_WANT_F32 | GLTF_WANT_I8 | GLTF_WANT_I16 | GLTF_WANT_U8 |
-                          GLTF_WANT_U16 | GLTF_WANT_NORM_I8 | GLTF_WANT_NORM_I16 | GLTF_WANT_NORM_U8 |
-                          GLTF_WANT_NORM_U16))
+        !gltf_want_format(place, a, "VEC3",
+                          GLTF_WANT_F32 | GLTF_WANT_I8 | GLTF_WANT_I16 | GLTF_WANT_U8 | GLTF_WANT_U16 |
+                              GLTF_WANT_NORM_I8 | GLTF_WANT_NORM_I16 | GLTF_WANT_NORM_U8 | GLTF_WANT_NORM_U16))
         return false;
     if (a->count != n_vertices)
         return json_fail(place, FACET_BAD_FILE, "has %zu elements, but POSITION has %zu", a->count, n_vertices);

@@ -184,8 +184,15 @@ bool gltf_want_format(const json_place *place, const gltf_accessor *a, const cha
 /* Bits for gltf_want_format; the normalised ones imply the flag is set, the plain ones that it is not. */
 enum {
     GLTF_WANT_F32 = 1,
-    GLTF_WANT_U8 = 2, GLTF_WANT_U16 = 4, GLTF_WANT_U32 = 8, GLTF_WANT_I8 = 16, GLTF_WANT_I16 = 32,
-    GLTF_WANT_NORM_U8 = 64, GLTF_WANT_NORM_U16 = 128, GLTF_WANT_NORM_I8 = 256, GLTF_WANT_NORM_I16 = 512
+    GLTF_WANT_U8 = 2,
+    GLTF_WANT_U16 = 4,
+    GLTF_WANT_U32 = 8,
+    GLTF_WANT_I8 = 16,
+    GLTF_WANT_I16 = 32,
+    GLTF_WANT_NORM_U8 = 64,
+    GLTF_WANT_NORM_U16 = 128,
+    GLTF_WANT_NORM_I8 = 256,
+    GLTF_WANT_NORM_I16 = 512
 };
 
 /* ---- gltf_texture.c, gltf_material.c: appearance -------------------------------------------------- */

@@ -64,8 +64,12 @@ static const unrendered unrendered_extensions[] = {
 static bool is_rendered(const char *name)
 {
     static const char *const names[] = {
-        "KHR_materials_emissive_strength", "KHR_materials_ior",    "KHR_materials_specular",
-        "KHR_materials_transmission",      "KHR_materials_volume", "KHR_materials_unlit",
+        "KHR_materials_emissive_strength",
+        "KHR_materials_ior",
+        "KHR_materials_specular",
+        "KHR_materials_transmission",
+        "KHR_materials_volume",
+        "KHR_materials_unlit",
         "FACET_materials_bsdf",
     };
     for (size_t i = 0; i < sizeof names/sizeof *names; i++)
@@ -184,8 +188,9 @@ static bool read_specular(gltf *g, const json_place *place, size_t number, mater
     for (int i = 0; i < 2; i++) {
         const json_place map = json_member(&e.body, maps[i]);
         if (!map.value) continue;
-        gltf_note_material(g, number, i ? "KHR_materials_specular's specularColorTexture is"
-                                        : "KHR_materials_specular's specularTexture is",
+        gltf_note_material(g, number,
+                           i ? "KHR_materials_specular's specularColorTexture is"
+                             : "KHR_materials_specular's specularTexture is",
                            "rendered with the factor alone");
     }
     return true;
@@ -243,7 +248,8 @@ bool gltf_use_material(gltf *g, size_t material_number, size_t *index)
 {
     const bool is_default = material_number == NONE;
     size_t *const known = is_default ? &g->default_material_index : &g->material_index[material_number];
-    const json_place place = is_default ? json_member(&g->root, "materials") : json_element(&g->materials, material_number);
+    const json_place place = is_default ? json_member(&g->root, "materials")
+                                        : json_element(&g->materials, material_number);
     *index = *known;
     if (*index != NONE) return true;
     char number_name[40];

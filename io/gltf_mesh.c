@@ -210,8 +210,7 @@ static bool build_mesh(gltf *g, size_t mesh_number, const json_place *node, cons
     return true;
 }
 
-bool gltf_use_mesh(gltf *g, size_t mesh_number, const json_place *node, const gltf_pose *pose,
-                   const gltf_mesh **result)
+bool gltf_use_mesh(gltf *g, size_t mesh_number, const json_place *node, const gltf_pose *pose, const gltf_mesh **result)
 {
     const json_place node_weights = json_member(node, "weights");
     const bool is_shared = !pose && !node_weights.value;

@@ -96,7 +96,8 @@ static bool place_nodes(gltf *g, size_t *stack)
         }
         for (int k = 0; k < 12; k++)
             if (!(fabs(node->world[k/4][k%4]) <= FLT_MAX))
-                return json_fail(&place, FACET_BAD_VALUE, "its transform in the world is too large for single precision");
+                return json_fail(&place, FACET_BAD_VALUE,
+                                 "its transform in the world is too large for single precision");
         node->is_placed = true;
         n_placed++;
         for (size_t k = 0; k < json_count(&children); k++) {

@@ -61,10 +61,10 @@ static bool read_instancing(gltf *g, const json_place *node, gltf_matrix **list,
     if (!json_read_object(&e.body, "attributes", &attributes)) return false;
     size_t count = NONE;
     const unsigned rotation_formats = GLTF_WANT_F32 | GLTF_WANT_NORM_I8 | GLTF_WANT_NORM_I16;
-    bool is_read =
-        read_instance_attribute(g, &attributes, "TRANSLATION", "VEC3", GLTF_WANT_F32, &count, &translations) &&
-        read_instance_attribute(g, &attributes, "ROTATION", "VEC4", rotation_formats, &count, &rotations) &&
-        read_instance_attribute(g, &attributes, "SCALE", "VEC3", GLTF_WANT_F32, &count, &scales);
+    bool is_read = read_instance_attribute(g, &attributes, "TRANSLATION", "VEC3", GLTF_WANT_F32, &count,
+                                           &translations) &&
+                   read_instance_attribute(g, &attributes, "ROTATION", "VEC4", rotation_formats, &count, &rotations) &&
+                   read_instance_attribute(g, &attributes, "SCALE", "VEC3", GLTF_WANT_F32, &count, &scales);
     if (is_read && count != NONE) {
         *n = count;
         is_read = compose_instances(g, &attributes, count, translations, rotations, scales, list);
@@ -122,7 +122,8 @@ static bool add_sphere(gltf *g, const json_place *node, double radius, size_t su
 {
     const double scale = similarity_scale(world);
     if (scale < 0)
-        return json_fail(node, FACET_BAD_VALUE, "a FACET_shape sphere needs the same scale along all axes, without shear");
+        return json_fail(node, FACET_BAD_VALUE,
+                         "a FACET_shape sphere needs the same scale along all axes, without shear");
     sphere s = {.radius = (float)(radius*scale), .material = surface};
     double reach = radius*scale;
     for (int k = 0; k < 3; k++) {

@@ -24,7 +24,8 @@ static int base64_digit(char c)
 static bool decode_base64(const json_place *place, const char *text, unsigned char **bytes, size_t *size)
 {
     const size_t length = strlen(text);
-    if (length%4 != 0) return json_fail(place, FACET_BAD_FILE, "base64 of %zu digits; must be a multiple of 4", length);
+    if (length%4 != 0)
+        return json_fail(place, FACET_BAD_FILE, "base64 of %zu digits; must be a multiple of 4", length);
     size_t padding = 0;
     while (padding < 2 && padding < length && text[length - 1 - padding] == '=') padding++;
     const size_t n = length/4*3 - padding;

@@ -62,8 +62,7 @@ static bool set_member(const json_place *place, facet_material *material)
     double values[3];
     size_t n;
     if (!parameter)
-        return json_fail(place, FACET_UNKNOWN_NAME, "%s has no such parameter",
-                         facet_model_get(material->model)->name);
+        return json_fail(place, FACET_UNKNOWN_NAME, "%s has no such parameter", facet_model_get(material->model)->name);
     if (!read_values(place, parameter, values, &n)) return false;
     const facet_status status = facet_material_set(material, place->key, values, n, &problem);
     return !status || json_fail(place, status, "%s", problem.text);

@@ -108,8 +108,8 @@ char *gltf_text(const gltf_builder *b, const char *rest)
     char buffers[64] = "";
     if (b->n_bytes) snprintf(buffers, sizeof buffers, "{\"byteLength\":%zu,\"uri\":\"data:;base64,", b->n_bytes);
     snprintf(text, size,
-             "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[%s%s%s],\"bufferViews\":[%s],\"accessors\":[%s]%s%s}", buffers,
-             base64, b->n_bytes ? "\"}" : "", b->views, b->accessors, rest[0] ? "," : "", rest);
+             "{\"asset\":{\"version\":\"2.0\"},\"buffers\":[%s%s%s],\"bufferViews\":[%s],\"accessors\":[%s]%s%s}",
+             buffers, base64, b->n_bytes ? "\"}" : "", b->views, b->accessors, rest[0] ? "," : "", rest);
     free(base64);
     return text;
 }

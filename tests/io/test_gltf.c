@@ -251,7 +251,7 @@ static void tangents_are_unit_with_handedness_and_need_normals(void **state)
     add_floats(&b, "VEC3", 3, normals, 9);
     add_floats(&b, "VEC4", 3, tangents, 12);
     scene *s = load_primitive(&b, "{\"attributes\":{\"POSITION\":0,\"NORMAL\":1,\"TANGENT\":2}}");
-    float (*const t)[4] = s->meshes[0].tangents;
+    float(*const t)[4] = s->meshes[0].tangents;
     EXPECT_FLOATS(t[0], 4, 1, 0, 0, -1);
     EXPECT_FLOATS(t[2], 4, 0, 1, 0, 1);
     /* a tangent of zero becomes any that is unit and at right angles to the normal: exact for +z */
@@ -297,7 +297,7 @@ static void morph_targets_are_applied_at_their_default_weights(void **state)
     (void)state;
     static const float up[9] = {0, 0, 4, 0, 0, 4, 0, 0, 4}, side[9] = {8, 0, 0, 0, 0, 0, 0, 0, 0};
     static const char morphing[] = "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":"
-                               "[{\"POSITION\":1},{\"POSITION\":2}]}],\"weights\":[0.5,0.25]}],";
+                                   "[{\"POSITION\":1},{\"POSITION\":2}]}],\"weights\":[0.5,0.25]}],";
     gltf_builder b = {0};
     char rest[512];
     add_triangle(&b);

@@ -20,8 +20,10 @@ static char *with_material(const char *members, const char *more)
     gltf_builder b = {0};
     char rest[4096];
     add_triangle(&b);
-    snprintf(rest, sizeof rest, "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},"
-             "\"material\":0}]}],\"materials\":[{%s}]%s", members, more);
+    snprintf(rest, sizeof rest,
+             "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},"
+             "\"material\":0}]}],\"materials\":[{%s}]%s",
+             members, more);
     return gltf_text(&b, rest);
 }
 
@@ -75,7 +77,8 @@ static void factors_are_read(void **state)
         "\"name\":\"paint\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.1,0.2,0.3,0.4],\"metallicFactor\":0.5,"
         "\"roughnessFactor\":0.25},\"alphaMode\":\"MASK\",\"alphaCutoff\":0.75,\"doubleSided\":true,\"emissiveFactor\":"
         "[1,0.5,0],\"extensions\":{\"KHR_materials_emissive_strength\":{\"emissiveStrength\":8},\"KHR_materials_ior\":"
-        "{\"ior\":1.25},\"KHR_materials_specular\":{\"specularFactor\":0.5,\"specularColorFactor\":[1,2,3]}}", "");
+        "{\"ior\":1.25},\"KHR_materials_specular\":{\"specularFactor\":0.5,\"specularColorFactor\":[1,2,3]}}",
+        "");
     const material *const m = &s->materials[0];
     assert_string_equal(m->name, "paint");
     EXPECT_FLOATS(m->base_color, 4, 0.1f, 0.2f, 0.3f, 0.4f);
@@ -125,7 +128,8 @@ static void an_ior_of_zero_reflects_everything(void **state)
 {
     (void)state;
     scene *s = load_material("\"extensions\":{\"KHR_materials_ior\":{\"ior\":0},\"KHR_materials_specular\":"
-                             "{\"specularColorFactor\":[0.5,1,2]}}", "");
+                             "{\"specularColorFactor\":[0.5,1,2]}}",
+                             "");
     const float ior = s->materials[0].ior, root = (ior - 1)/(ior + 1);
     EXPECT_FLOATS(&root, 1, 1);
     EXPECT_FLOATS(s->materials[0].specular_color, 3, 0.5f, 1, 1);
@@ -136,14 +140,16 @@ static void transmission_is_thin_without_thickness(void **state)
 {
     (void)state;
     scene *s = load_material("\"pbrMetallicRoughness\":{\"roughnessFactor\":0},\"extensions\":"
-                             "{\"KHR_materials_transmission\":{\"transmissionFactor\":0.5}}", "");
+                             "{\"KHR_materials_transmission\":{\"transmissionFactor\":0.5}}",
+                             "");
     EXPECT_FLOATS(&s->materials[0].transmission, 1, 0.5f);
     assert_true(s->materials[0].is_thin);
     assert_string_equal(gltf_warnings, "");
     scene_destroy(s);
     s = load_material("\"pbrMetallicRoughness\":{\"roughnessFactor\":0},\"extensions\":{\"KHR_materials_transmission\":"
                       "{\"transmissionFactor\":1,\"transmissionTexture\":{\"index\":0}},\"KHR_materials_volume\":"
-                      "{\"thicknessFactor\":2,\"attenuationDistance\":3,\"attenuationColor\":[1,0.5,1]}}", "");
+                      "{\"thicknessFactor\":2,\"attenuationDistance\":3,\"attenuationColor\":[1,0.5,1]}}",
+                      "");
     assert_false(s->materials[0].is_thin);
     assert_non_null(strstr(gltf_warnings, "materials[0]: KHR_materials_volume's attenuation is not supported"));
     assert_non_null(strstr(gltf_warnings, "transmissionTexture is not supported"));
@@ -156,7 +162,8 @@ static void unlit_and_bsdf_materials_are_told_apart(void **state)
     scene *s = load_material("\"extensions\":{\"KHR_materials_unlit\":{}}", "");
     assert_int_equal(s->materials[0].kind, SURFACE_UNLIT);
     scene_destroy(s);
-    s = load_material("\"extensions\":{\"FACET_materials_bsdf\":{\"model\":\"ggx\",\"alpha\":0.25,\"ks\":[0.9,0.7,0.3]}}", "");
+    s = load_material(
+        "\"extensions\":{\"FACET_materials_bsdf\":{\"model\":\"ggx\",\"alpha\":0.25,\"ks\":[0.9,0.7,0.3]}}", "");
     assert_int_equal(s->materials[0].kind, SURFACE_BSDF);
     facet_material expected = {.struct_size = sizeof expected};
     facet_bsdf bsdf;
@@ -205,7 +212,8 @@ static void what_is_not_rendered_is_reported_once_with_its_count(void **state)
              "\"nodes\":[{\"mesh\":0}],\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"material\":2},"
              "{\"attributes\":{\"POSITION\":0},\"material\":1},{\"attributes\":{\"POSITION\":0},\"material\":0}]}],"
              "\"extensionsUsed\":[\"KHR_materials_sheen\",\"VENDOR_thing\"],\"materials\":[%s,{\"extensions\":"
-             "{\"KHR_materials_clearcoat\":{\"clearcoatRoughnessFactor\":1}}},%s]", sheen, sheen);
+             "{\"KHR_materials_clearcoat\":{\"clearcoatRoughnessFactor\":1}}},%s]",
+             sheen, sheen);
     scene *s = load(&b, rest);
     assert_string_equal(gltf_warnings,
                         "extensionsUsed[1]: VENDOR_thing is not supported: ignored\n"
@@ -215,16 +223,19 @@ static void what_is_not_rendered_is_reported_once_with_its_count(void **state)
 
 /* ---- Textures ------------------------------------------------------------------------------------- */
 
-#define DOT ",\"images\":[{\"uri\":\"missing.png\"},{\"uri\":\"dot.png\"}],\"textures\":[{\"source\":1,\"sampler\":0}]," \
+#define DOT                                                                                                            \
+    ",\"images\":[{\"uri\":\"missing.png\"},{\"uri\":\"dot.png\"}],\"textures\":[{\"source\":1,\"sampler\":0}],"       \
     "\"samplers\":[{\"magFilter\":9728,\"wrapS\":33071,\"wrapT\":33648}]"
 
 static void textures_are_shared_per_use_and_unused_images_not_read(void **state)
 {
     (void)state;
     write_dot();
-    scene *s = load_material("\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},\"metallicRoughnessTexture\":"
-                             "{\"index\":0,\"texCoord\":1}},\"emissiveTexture\":{\"index\":0},\"normalTexture\":"
-                             "{\"index\":0,\"scale\":0.5}", DOT);
+    scene *s = load_material(
+        "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},\"metallicRoughnessTexture\":"
+        "{\"index\":0,\"texCoord\":1}},\"emissiveTexture\":{\"index\":0},\"normalTexture\":"
+        "{\"index\":0,\"scale\":0.5}",
+        DOT);
     const material *const m = &s->materials[0];
     assert_int_equal(s->n_images, 1);
     assert_int_equal(s->n_textures, 2);
@@ -244,9 +255,11 @@ static void texture_transforms_scale_then_turn_then_move(void **state)
 {
     (void)state;
     write_dot();
-    scene *s = load_material("\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0,\"texCoord\":0,\"extensions\":"
-                             "{\"KHR_texture_transform\":{\"offset\":[0.25,0.5],\"scale\":[2,4],\"texCoord\":1,"
-                             "\"rotation\":0.39269908169872414}}}}", DOT);
+    scene *s = load_material(
+        "\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0,\"texCoord\":0,\"extensions\":"
+        "{\"KHR_texture_transform\":{\"offset\":[0.25,0.5],\"scale\":[2,4],\"texCoord\":1,"
+        "\"rotation\":0.39269908169872414}}}}",
+        DOT);
     const texture_use *const use = &s->materials[0].base_color_texture;
     const float c = (float)cos(0.39269908169872414), n = (float)sin(0.39269908169872414);
     EXPECT_FLOATS(use->transform, 6, c*2, n*4, 0.25f, -n*2, c*4, 0.5f);
@@ -275,8 +288,9 @@ static void other_codecs_need_a_fallback(void **state)
     (void)state;
     static const char use[] = "\"emissiveTexture\":{\"index\":0}";
     write_dot();
-    scene *s = load_material(use, ",\"images\":[{\"uri\":\"dot.png\"},{\"uri\":\"dot.webp\"}],\"textures\":[{\"source\":0,"
-                                  "\"extensions\":{\"EXT_texture_webp\":{\"source\":1}}}]");
+    scene *s = load_material(use,
+                             ",\"images\":[{\"uri\":\"dot.png\"},{\"uri\":\"dot.webp\"}],\"textures\":[{\"source\":0,"
+                             "\"extensions\":{\"EXT_texture_webp\":{\"source\":1}}}]");
     assert_int_equal(s->n_images, 1);
     assert_string_equal(gltf_warnings, "textures[0]: EXT_texture_webp is not supported: images[0] is used instead\n");
     scene_destroy(s);

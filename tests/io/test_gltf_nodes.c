@@ -74,7 +74,8 @@ static void graphs_that_are_no_trees_are_refused(void **state)
         const char *rest, *place, *text;
     } cases[] = {
         {"\"nodes\":[{\"children\":[0]}]", "nodes[0].children[0]", "its own child"},
-        {"\"nodes\":[{\"children\":[1]},{\"children\":[2]},{\"children\":[1]}]", "nodes[2].children[0]", "already a child"},
+        {"\"nodes\":[{\"children\":[1]},{\"children\":[2]},{\"children\":[1]}]", "nodes[2].children[0]",
+         "already a child"},
         {"\"nodes\":[{},{\"children\":[2]},{\"children\":[1]}]", "nodes[1]", "its own ancestor"},
         {"\"nodes\":[{\"children\":[1,1]},{}]", "nodes[0].children[1]", "already a child"},
         {"\"nodes\":[{\"children\":[1]},{}],\"scenes\":[{\"nodes\":[0,1]}]", "scenes[0].nodes[1]", "roots only"},
@@ -135,8 +136,10 @@ static void spheres_need_even_scale(void **state)
     static const char shape[] = "\"extensions\":{\"FACET_shape\":{\"sphere\":{\"radius\":0.5},\"material\":0}}";
     const gltf_builder b = {0};
     char rest[512];
-    snprintf(rest, sizeof rest, "\"materials\":[{\"name\":\"ball\"}],\"nodes\":[{\"translation\":[1,2,3],\"scale\":"
-             "[-4,4,4],%s},{%s}]", shape, shape);
+    snprintf(rest, sizeof rest,
+             "\"materials\":[{\"name\":\"ball\"}],\"nodes\":[{\"translation\":[1,2,3],\"scale\":"
+             "[-4,4,4],%s},{%s}]",
+             shape, shape);
     scene *s = load(&b, rest);
     assert_int_equal(s->n_spheres, 2);
     EXPECT_FLOATS(s->spheres[0].center, 3, 1, 2, 3);
@@ -158,10 +161,11 @@ static void cameras_lose_their_scale_and_keep_their_aim(void **state)
 {
     (void)state;
     const gltf_builder b = {0};
-    scene *s = load(&b, "\"cameras\":[{\"type\":\"perspective\",\"name\":\"main\",\"perspective\":{\"yfov\":0.5,\"znear\":1,"
-                        "\"aspectRatio\":1.5}},{\"type\":\"orthographic\",\"orthographic\":{\"xmag\":3,\"ymag\":2,"
-                        "\"zfar\":9,\"znear\":0}}],\"nodes\":[{\"camera\":0,\"scale\":[7,8,9],\"translation\":[1,2,3]},"
-                        "{\"camera\":1,\"name\":\"top\",\"scale\":[0,0,0]},{\"camera\":0},{\"camera\":1}]");
+    scene *s = load(
+        &b, "\"cameras\":[{\"type\":\"perspective\",\"name\":\"main\",\"perspective\":{\"yfov\":0.5,\"znear\":1,"
+            "\"aspectRatio\":1.5}},{\"type\":\"orthographic\",\"orthographic\":{\"xmag\":3,\"ymag\":2,"
+            "\"zfar\":9,\"znear\":0}}],\"nodes\":[{\"camera\":0,\"scale\":[7,8,9],\"translation\":[1,2,3]},"
+            "{\"camera\":1,\"name\":\"top\",\"scale\":[0,0,0]},{\"camera\":0},{\"camera\":1}]");
     assert_int_equal(s->n_cameras, 4);
     EXPECT_FLOATS(s->cameras[0].to_world, 12, 1, 0, 0, 1, 0, 1, 0, 2, 0, 0, 1, 3);
     EXPECT_FLOATS(&s->cameras[0].yfov, 1, 0.5f);
@@ -207,7 +211,7 @@ static void lights_shine_along_minus_z_in_radiometric_units(void **state)
     (void)state;
     const gltf_builder b = {0};
     scene *s = load(&b, LIGHTS("{\"type\":\"spot\",\"intensity\":10,\"color\":[1,0.5,0],\"spot\":{}}")
-                    LIGHT_NODE("\"translation\":[1,2,3],\"scale\":[5,5,5],\"rotation\":[0,1,0,0],"));
+                            LIGHT_NODE("\"translation\":[1,2,3],\"scale\":[5,5,5],\"rotation\":[0,1,0,0],"));
     assert_int_equal(s->n_lights, 1);
     const punctual_light *const light = &s->lights[0];
     assert_int_equal(light->kind, LIGHT_SPOT);

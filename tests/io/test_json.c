@@ -32,9 +32,10 @@ static int cleanup(void **state)
 static void syntax_errors_are_refused_with_their_line(void **state)
 {
     (void)state;
-    static const char *const texts[] = {"",       "{",          "[1,]",          "{\"a\":1,\"a\":2}", "[NaN]",  "// c\n[]",
-                                        "[] []",  "[1e400]",    "[\"\xff\"]",    "[\"\\ud800\"]",     "\xEF\xBB\xBF[]",
-                                        "[01]",   "['a']",      "[\"\\u0000\"]", "{a:1}",             "[Infinity]"};
+    static const char *const texts[] = {
+        "",        "{",          "[1,]",          "{\"a\":1,\"a\":2}", "[NaN]", "// c\n[]", "[] []",
+        "[1e400]", "[\"\xff\"]", "[\"\\ud800\"]", "\xEF\xBB\xBF[]",    "[01]",  "['a']",    "[\"\\u0000\"]",
+        "{a:1}",   "[Infinity]"};
     for (size_t i = 0; i < sizeof texts/sizeof *texts; i++) {
         if (parse(texts[i])) fail_msg("accepted: %s", texts[i]);
         assert_int_equal(why.status, FACET_BAD_FILE);
