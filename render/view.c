@@ -66,6 +66,7 @@ static float sigmoid_half(float d, float slope, float reach, float end)
 {
     const float p = 1.5f, x = slope*d;
     const float k = powf(powf(end, -p) - powf(slope*reach, -p), -1/p);
+    if (d >= reach) return end;
     return x <= 0 ? 0 : fminf(x*powf(1 + powf(x/k, p), -1/p), end);
 }
 
