@@ -84,6 +84,22 @@ static void read_bytes(png_structp png, png_bytep to, size_t n)
     j->at += n;
 }
 
+/* Checks that all chunks lie inside the file, up to the last one, because libpng clears as much memory as a
+ * chunk claims before it reads.  *at is where the check stopped; NULL if all is well. */
+static const char *check_chunks(const unsigned char *bytes, size_t size, size_t *at)
+{
+    *at = 0;
+    if (size < 8 || memcmp(bytes, "\x89PNG\r\n\x1a\n", 8) != 0) return "its first 8 bytes are not those of a PNG file";
+    for (*at = 8; size - *at >= 12;) { /* length, name, data, check sum */
+        const unsigned char *p = bytes + *at;
+        const size_t length = (size_t)p[0] << 24 | (size_t)p[1] << 16 | (size_t)p[2] << 8 | p[3];
+        if (length > size - *at - 12) return "the file is truncated, or the length of a chunk is wrong";
+        if (memcmp(p + 4, "IEND", 4) == 0) return NULL;
+        *at += length + 12;
+    }
+    return "the file is truncated: it has no IEND chunk";
+}
+
 /* Checks the declared size before memory is taken for it, and chooses the conversions. */
 static void prepare_read(job *j)
 {
@@ -134,6 +150,13 @@ static bool read_picture(job *j)
 
 facet_status png_decode(const unsigned char *bytes, size_t size, image *picture, facet_error *why)
 {
+    char place[32];
+    size_t at;
+    const char *damage = check_chunks(bytes, size, &at);
+    if (damage) {
+        snprintf(place, sizeof place, "byte %zu", at);
+        return facet_error_set(why, FACET_BAD_FILE, place, "PNG: %s", damage);
+    }
     job j = {.bytes = bytes, .size = size};
     j.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &j, on_error, on_warning);
     j.info = j.png ? png_create_info_struct(j.png) : NULL;
@@ -141,7 +164,6 @@ facet_status png_decode(const unsigned char *bytes, size_t size, image *picture,
     if (!j.info) {
         status = facet_error_set(why, FACET_NO_MEMORY, "", "no memory to read a PNG file");
     } else if (!read_picture(&j)) {
-        char place[32];
         snprintf(place, sizeof place, "byte %zu", j.at);
         status = facet_error_set(why, j.is_out_of_memory ? FACET_NO_MEMORY : FACET_BAD_FILE, place, "PNG: %s",
                                  j.message);
