@@ -62,7 +62,7 @@ static void on_error(exr_const_context_t context, exr_result_t code, const char 
     if (s->message[0] == 0 && text) {
         size_t i = 0;
         for (; text[i] && i + 1 < sizeof s->message; i++) { /* it may quote the file */
-            s->message[i] = text[i] >= ' ' && text[i] <= '~' ? text[i] : '?';
+            s->message[i] = (char)(text[i] >= ' ' && text[i] <= '~' ? text[i] : '?');
         }
         s->message[i] = 0;
     }
