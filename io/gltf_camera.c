@@ -55,13 +55,12 @@ static bool read_perspective(const json_place *place, camera *c)
     json_place perspective;
     if (!json_read_object(place, "perspective", &perspective) || !json_want_present(&perspective) ||
         !json_read_float(&perspective, "yfov", 0, PI, &c->yfov) ||
-        !json_read_float(&perspective, "aspectRatio", 0, FLT_MAX, &c->aspect))
+        !json_read_float(&perspective, "aspectRatio", 1/GLTF_ASPECT_CAP, GLTF_ASPECT_CAP, &c->aspect))
         return false;
-    const json_place yfov = json_member(&perspective, "yfov"), aspect = json_member(&perspective, "aspectRatio");
+    const json_place yfov = json_member(&perspective, "yfov");
     if (!json_want_present(&yfov)) return false;
     if (!(c->yfov > 0 && c->yfov < (float)PI))
         return json_fail(&yfov, FACET_BAD_VALUE, "is %.9g; must be above 0 and below pi", (double)c->yfov);
-    if (aspect.value && !(c->aspect > 0)) return json_fail(&aspect, FACET_BAD_VALUE, "is 0; must be above 0");
     return true;
 }
 
@@ -76,15 +75,16 @@ static bool read_orthographic(gltf *g, const json_place *place, camera *c)
     for (int k = 0; k < 2; k++) {
         const json_place mag_place = json_member(&orthographic, keys[k]);
         if (!json_want_present(&mag_place)) return false;
-        if (!json_read_float(&orthographic, keys[k], -FLT_MAX, FLT_MAX, &mag[k])) return false;
+        if (!json_read_float(&orthographic, keys[k], -GLTF_EXTENT_CAP, GLTF_EXTENT_CAP, &mag[k])) return false;
         if (mag[k] == 0) return json_fail(&mag_place, FACET_BAD_VALUE, "is 0; must be above 0");
         if (mag[k] < 0) gltf_warn(g, &mag_place, "is negative: its size is used");
         mag[k] = fabsf(mag[k]);
     }
     c->ymag = mag[1];
     c->aspect = mag[0]/mag[1];
-    if (!isfinite(c->aspect) || !(c->aspect > 0))
-        return json_fail(&orthographic, FACET_BAD_VALUE, "xmag/ymag is out of range");
+    if (!(c->aspect >= 1/GLTF_ASPECT_CAP && c->aspect <= GLTF_ASPECT_CAP))
+        return json_fail(&orthographic, FACET_BAD_VALUE, "xmag/ymag is %g; must be from %g to %g", (double)c->aspect,
+                         1/GLTF_ASPECT_CAP, GLTF_ASPECT_CAP);
     return true;
 }
 

@@ -38,6 +38,8 @@ bool gltf_apply_morph(gltf *g, const json_place *primitive, const json_place *we
     if (!json_read_array(primitive, "targets", &targets)) return false;
     const size_t n = json_count(&targets);
     if (n == 0 || !weights->value) return true;
+    /* Targets without weight cost time too: many skinned nodes may rebuild a mesh that has many. */
+    if (!gltf_charge(g, &targets, n, sizeof(float[4]))) return false;
     if (json_count(weights) != n)
         return json_fail(weights, FACET_BAD_FILE, "has %zu weights for %zu morph targets", json_count(weights), n);
     for (size_t i = 0; i < n; i++) {

@@ -42,6 +42,10 @@
 #define GLTF_EXTENT_CAP 1e18
 /* Radiance and intensity, likewise; no light in the universe comes near. */
 #define GLTF_RADIANCE_CAP 1e18
+/* Texture coordinates are clipped to this: a float above has no fraction left to look up. */
+#define GLTF_UV_CAP 16777216.0f
+/* A camera's width/height, at most; its inverse is the least. */
+#define GLTF_ASPECT_CAP 1e6
 
 /* ---- Types --------------------------------------------------------------------------------------- */
 

@@ -144,7 +144,7 @@ static bool read_normal_map(gltf *g, const json_place *place, size_t number, mat
 {
     json_place info;
     return json_read_object(place, "normalTexture", &info) &&
-           json_read_float(&info, "scale", -FLT_MAX, FLT_MAX, &m->normal_scale) &&
+           json_read_float(&info, "scale", -GLTF_EXTENT_CAP, GLTF_EXTENT_CAP, &m->normal_scale) &&
            gltf_read_texture(g, place, "normalTexture", false, number, &m->normal_texture);
 }
 

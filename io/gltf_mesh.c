@@ -73,6 +73,8 @@ static bool read_uv(gltf *g, const json_place *attributes, mesh *m)
         float *values = NULL;
         if (!find_attribute(g, &place, "VEC2", FORMAT_UV, m->n_vertices, &a)) return false;
         if (a && !gltf_read_floats(g, &place, a, &values)) return false;
+        for (size_t k = 0; a && k < 2*m->n_vertices; k++)
+            values[k] = fmaxf(-GLTF_UV_CAP, fminf(values[k], GLTF_UV_CAP));
         m->uv[i] = (float(*)[2])(void *)values;
     }
     return true;

@@ -134,8 +134,8 @@ static bool read_transform(const json_place *info, size_t *uv_set, float transfo
     float offset[2] = {0, 0}, scale[2] = {1, 1};
     double rotation = 0;
     if (!gltf_read_extension(info, "KHR_texture_transform", &e)) return false;
-    if (!json_read_floats(&e.body, "offset", 2, -INFINITY, INFINITY, offset) ||
-        !json_read_floats(&e.body, "scale", 2, -INFINITY, INFINITY, scale) ||
+    if (!json_read_floats(&e.body, "offset", 2, -GLTF_UV_CAP, GLTF_UV_CAP, offset) ||
+        !json_read_floats(&e.body, "scale", 2, -GLTF_UV_CAP, GLTF_UV_CAP, scale) ||
         !json_read_number(&e.body, "rotation", -INFINITY, INFINITY, &rotation) ||
         !json_read_size(&e.body, "texCoord", SIZE_MAX, uv_set))
         return false;

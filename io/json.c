@@ -171,7 +171,7 @@ bool json_number_here(const json_place *place, double low, double high, double *
 /* A whole number from 0 to high. */
 static bool whole_here(const json_place *place, double high, double *value)
 {
-    double number;
+    double number = 0;
     if (!json_number_here(place, -INFINITY, INFINITY, &number)) return false;
     if (number != floor(number)) return json_fail(place, FACET_BAD_VALUE, "is %.9g; must be a whole number", number);
     if (number < 0) return json_fail(place, FACET_BAD_VALUE, "is %.9g; must not be negative", number);
@@ -184,7 +184,7 @@ static bool whole_here(const json_place *place, double high, double *value)
 
 bool json_index_here(const json_place *place, size_t count, const char *what, size_t *value)
 {
-    double number;
+    double number = 0;
     if (!whole_here(place, WHOLE_NUMBER_CAP, &number)) return false;
     if (number >= (double)count)
         return json_fail(place, FACET_BAD_VALUE, "is %.17g, but the number of %s is %zu", number, what, count);
@@ -252,7 +252,7 @@ bool json_read_floats(const json_place *object, const char *key, size_t n, doubl
 bool json_read_size(const json_place *object, const char *key, size_t high, size_t *value)
 {
     const json_place place = json_member(object, key);
-    double number;
+    double number = 0;
     if (!place.value) return true;
     if (!whole_here(&place, (double)high, &number)) return false;
     *value = (size_t)number;

@@ -279,6 +279,18 @@ static void vertex_colours_are_rgba_in_range(void **state)
     scene_destroy(s);
 }
 
+static void texture_coordinates_without_a_fraction_are_clipped(void **state)
+{
+    (void)state;
+    static const float uv[6] = {3e38f, -3e38f, 0.25f, -7.5f, 1e7f, 0};
+    gltf_builder b = {0};
+    add_triangle(&b);
+    add_floats(&b, "VEC2", 3, uv, 6);
+    scene *s = load_primitive(&b, "{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1}}");
+    EXPECT_FLOATS(s->meshes[0].uv[0], 6, 16777216, -16777216, 0.25f, -7.5f, 1e7f, 0);
+    scene_destroy(s);
+}
+
 static void attributes_of_another_length_are_refused(void **state)
 {
     (void)state;
@@ -367,6 +379,7 @@ int main(void)
         TEST(normals_are_made_unit_and_mended),
         TEST(tangents_are_unit_with_handedness_and_need_normals),
         TEST(vertex_colours_are_rgba_in_range),
+        TEST(texture_coordinates_without_a_fraction_are_clipped),
         TEST(attributes_of_another_length_are_refused),
         TEST(morph_targets_are_applied_at_their_default_weights),
         TEST(skinned_vertices_go_where_their_joints_are),

@@ -192,6 +192,9 @@ static void impossible_cameras_are_refused(void **state)
         {"{\"type\":\"perspective\",\"perspective\":{\"yfov\":3.2,\"znear\":1}}", "cameras[0].perspective.yfov"},
         {"{\"type\":\"perspective\",\"perspective\":{}}", "cameras[0].perspective.yfov"},
         {"{\"type\":\"orthographic\",\"orthographic\":{\"xmag\":0,\"ymag\":1}}", "cameras[0].orthographic.xmag"},
+        {"{\"type\":\"orthographic\",\"orthographic\":{\"xmag\":1e9,\"ymag\":1}}", "cameras[0].orthographic"},
+        {"{\"type\":\"perspective\",\"perspective\":{\"yfov\":1,\"aspectRatio\":0}}",
+         "cameras[0].perspective.aspectRatio"},
         {"{\"type\":\"fisheye\"}", "cameras[0].type"},
     };
     for (size_t i = 0; i < sizeof cases/sizeof *cases; i++) {
