@@ -2,8 +2,12 @@
  *
  * [gltf] Khronos Group, glTF 2.0 Specification, appendix B (BRDF implementation);
  *        KHR_materials_ior, KHR_materials_specular.
+ * [burley12] Burley, Physically-based shading at Disney, 2012, section 5.3.
  *
  *     f = (1 - metallic) (1 - max F) base/pi + D G2 F/(4 cos_i cos_o)
+ * (diffuse=lambert), or, as Blender 3.4's Principled node reads the same files, with Disney's retro-reflective
+ * base added in full (diffuse=burley),
+ *     f = (1 - metallic) base/pi (1 + (FD90 - 1)(1 - cos_i)^5)(1 + (FD90 - 1)(1 - cos_o)^5) + the same,
  * with GGX, alpha = roughness^2, and Schlick's F from F0 to F90, both blended by metallic.  Departures:
  * height-correlated G2 (the specification leaves it open), and the lobe is chosen by Fresnel's share at wo.
  * SPDX-License-Identifier: MIT */
@@ -11,10 +15,14 @@
 
 #include "ggx.h"
 
+#define DIFFUSE_LAMBERT 0
+#define DIFFUSE_BURLEY 1
+
 typedef struct metallic_roughness_params {
     real3 kd;      /* (1 - metallic) base */
     real3 F0, F90; /* reflectance at normal and grazing incidence */
     real alpha;    /* roughness^2 */
+    int diffuse;   /* DIFFUSE_LAMBERT or DIFFUSE_BURLEY */
 } metallic_roughness_params;
 
 /* From the factors of a material at one point.  dielectric_F0: ((ior - 1)/(ior + 1))^2; specular and
@@ -29,6 +37,7 @@ KERNEL metallic_roughness_params metallic_roughness_of(real3 base, real metallic
     p.F0    = mix3(F0, base, metallic);
     p.F90   = splat3(mix(specular, 1, metallic));
     p.alpha = kmax(roughness*roughness, ALPHA_SMALLEST);
+    p.diffuse = DIFFUSE_LAMBERT;
     return p;
 }
 
@@ -63,14 +72,24 @@ KERNEL microfacet_params metallic_roughness_mixture(metallic_roughness_params p,
     return m;
 }
 
+/* The diffuse base over kd/pi: what the interface above lets through, or [burley12, section 5.3], where
+ * FD90 = 1/2 + 2 roughness cos_d^2 and cos_d = wi.wm. */
+KERNEL real metallic_roughness_base(metallic_roughness_params p, real cos_i, real cos_o, real cos_d, real3 F)
+{
+    real FD90_1 = 2*ksqrt(p.alpha)*cos_d*cos_d - 0.5f;
+    real burley = (1 + FD90_1*kpow5(kmax(1 - cos_i, 0)))*(1 + FD90_1*kpow5(kmax(1 - cos_o, 0)));
+    return p.diffuse == DIFFUSE_BURLEY ? burley : 1 - max_of3(F);
+}
+
 KERNEL real3 metallic_roughness_eval(metallic_roughness_params p, real3 wi, real3 wo)
 {
     real3 wm      = half_vector(wi, wo);
     real D        = ggx_D(wm, p.alpha, p.alpha);
     real G2       = smith_G2(ggx_Lambda(wi, p.alpha, p.alpha), ggx_Lambda(wo, p.alpha, p.alpha), G2_CORRELATED);
-    real3 F       = fresnel_schlick(p.F0, p.F90, kmin(kabs(dot3(wi, wm)), 1));
+    real cos_d    = kmin(kabs(dot3(wi, wm)), 1);
+    real3 F       = fresnel_schlick(p.F0, p.F90, cos_d);
     real specular = D*G2/(4*kmax(wo.z, REAL_MIN));
-    real diffuse  = INV_PI*wi.z*(1 - max_of3(F));
+    real diffuse  = INV_PI*wi.z*metallic_roughness_base(p, wi.z, wo.z, cos_d, F);
     return select3((wi.z > 0) & (wo.z > 0), add3(scale3(diffuse, p.kd), scale3(specular, F)), splat3(0));
 }
 
@@ -110,14 +129,18 @@ static const facet_parameter metallic_roughness_parameters[] = {
     {"ior", FACET_NUMBER, 1, 10, {1.5, 0, 0}, "1", "", "index of refraction of the dielectric"},
     {"specular", FACET_NUMBER, 0, 1, {1, 0, 0}, "1", "", "strength of the dielectric's reflection"},
     {"specular_color", FACET_COLOUR, 0, 1, {1, 1, 1}, "1", "", "tint of the dielectric's reflection at normal incidence"},
+    {"diffuse", FACET_CHOICE, 0, 1, {0, 0, 0}, "1", "lambert|burley", "base under the interface, or Disney's added to it"},
 };
 #endif
 
 #ifdef FACET_PREPARE
 static metallic_roughness_params metallic_roughness_prepare(const facet_material *m)
 {
-    return metallic_roughness_of(prepare_colour(m, "base_color"), prepare_number(m, "metallic"),
-                                 prepare_number(m, "roughness"), fresnel_normal_incidence(prepare_number(m, "ior")),
-                                 prepare_number(m, "specular"), prepare_colour(m, "specular_color"));
+    metallic_roughness_params p =
+        metallic_roughness_of(prepare_colour(m, "base_color"), prepare_number(m, "metallic"),
+                              prepare_number(m, "roughness"), fresnel_normal_incidence(prepare_number(m, "ior")),
+                              prepare_number(m, "specular"), prepare_colour(m, "specular_color"));
+    p.diffuse = prepare_choice(m, "diffuse");
+    return p;
 }
 #endif
