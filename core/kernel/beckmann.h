@@ -71,6 +71,7 @@ KERNEL real beckmann_visible_slope(real a, real u)
     real low   = -kmin(a, SLOPE_LIMIT);
     real high  = SLOPE_LIMIT;
     real t     = kclamp(kerfcinv(kclamp(2*u, REAL_EPSILON, 2 - 2*REAL_EPSILON)), low, high);
+    UNROLL
     for (int i = 0; i < SLOPE_STEPS; i++) {
         real e        = INV_SQRT_PI*kexp_neg_square(t);
         real residual = a*kerfc(t) + e - u*total;

@@ -51,6 +51,7 @@ KERNEL real phong_series(real p, real z)
 {
     real sum  = 0;
     real term = 1;
+    UNROLL
     for (int k = 0; k < PHONG_SERIES_TERMS; k++) {
         sum  += term;
         term *= z*(p + 0.5f + k)/(1.5f + k);
@@ -65,6 +66,7 @@ KERNEL real phong_fraction(real b, real x, real z)
 {
     real c = b + 1.5f;
     real f = 1;
+    UNROLL
     for (int m = PHONG_FRACTION_LEVELS/2; m > 0; m--) {
         real even = m*(m + 0.5f)/((c + (2*m - 2))*(c + (2*m - 1)));
         real inv  = 1/((c + (2*m - 3))*(c + (2*m - 2)));

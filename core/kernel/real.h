@@ -17,6 +17,13 @@
  * that is left in a loop keeps the loop from vectorising. */
 #define KERNEL static inline __attribute__((unused, always_inline))
 
+/* Before a loop of constant length inside a kernel: left as a loop, it keeps clang from vectorising the one around it. */
+#if defined(__clang__)
+#define UNROLL _Pragma("clang loop unroll(full)")
+#else
+#define UNROLL
+#endif
+
 #if FACET_REAL_IS_DOUBLE
 typedef double real;
 typedef uint64_t real_bits; /* unsigned integer of the same width */
