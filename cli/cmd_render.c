@@ -13,7 +13,7 @@
 #include "cli/report.h"
 
 /* Where --time or --noise is to end the render and --spp does not say more. */
-enum { DEFAULT_SPP = 64, UNLIMITED_SPP = 65536, DEFAULT_DEPTH = 8, DEFAULT_HEIGHT = 540 };
+enum { DEFAULT_SPP = 64, UNLIMITED_SPP = 65536, DEFAULT_DEPTH = 8, DEFAULT_HEIGHT = 540, MAX_SIDE = 65536 };
 
 /* Set by the signal handler, read by the progress callback: the one thing that a signal can reach. */
 static volatile sig_atomic_t is_interrupted;
@@ -71,10 +71,11 @@ static int choose_size(const render_options *o, const camera *c, render_settings
 {
     const double aspect = c->aspect > 0 ? c->aspect : 16.0/9;
     r->height = o->size[1] ? o->size[1] : DEFAULT_HEIGHT;
-    r->width = o->size[0] ? o->size[0] : (size_t)fmin(fmax(round(DEFAULT_HEIGHT*aspect), 1), 65536);
-    if (r->width > IMAGE_PIXEL_CAP/r->height)
-        return fail(EXIT_USAGE, NULL, "--size", "%zux%zu is more than the %zu pixels that a picture can have", r->width,
-                    r->height, IMAGE_PIXEL_CAP);
+    r->width = o->size[0] ? o->size[0] : (size_t)fmin(fmax(round(DEFAULT_HEIGHT*aspect), 1), MAX_SIDE);
+    if (r->width > MAX_SIDE || r->height > MAX_SIDE || r->width > IMAGE_PIXEL_CAP/r->height)
+        return fail(EXIT_USAGE, NULL, "--size",
+                    "%zux%zu is too large; a picture has at most %d pixels a side and %zu in all", r->width, r->height,
+                    MAX_SIDE, IMAGE_PIXEL_CAP);
     const size_t *crop = o->crop;
     if (crop[2] &&
         (crop[0] >= r->width || crop[2] > r->width - crop[0] || crop[1] >= r->height || crop[3] > r->height - crop[1]))
@@ -210,7 +211,7 @@ static const option options[] = {
     {"env", 0, OPTION_TEXT, AT(env), "FILE|R,G,B",
      "light from all around: an .hdr or .exr picture in latitude-longitude form, or a constant radiance", 0, 0, NULL},
     {"env-scale", 0, OPTION_NUMBER, AT(env_scale), "X", "multiply the environment by X (default 1)", 0, 1e30, NULL},
-    {"depth", 0, OPTION_INTEGER, AT(depth), "N", "most scattering events on a path (default 8)", 0, 65535, NULL},
+    {"depth", 0, OPTION_INTEGER, AT(depth), "N", "most scattering events on a path (default 8)", 0, 4096, NULL},
     {"threads", 't', OPTION_INTEGER, AT(threads), "N",
      "threads; the picture does not depend on them (default: one per processor)", 1, 1024, NULL},
     {"seed", 0, OPTION_INTEGER, AT(seed), "N", "seed of the samples (default 0)", 0, UINT32_MAX, NULL},

@@ -64,8 +64,10 @@ static int help(const char *name)
 
 int main(int argc, char **argv)
 {
-    /* A pipe that closes is an ordinary write error: it must not end a render before its picture is saved. */
+    /* A pipe that closes and a limit on the size of files are ordinary write errors: they must not end the
+     * program before a picture is saved, or in the middle of one. */
     signal(SIGPIPE, SIG_IGN);
+    signal(SIGXFSZ, SIG_IGN);
     errno = 0;
     if (argc < 2) {
         print_usage(stderr);

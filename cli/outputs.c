@@ -160,8 +160,8 @@ void print_render_json(const render_options *o, const render_settings *settings,
     json_put_integer(&j, "seed", settings->seed);
     json_put_bool(&j, "complete", result->is_complete);
     json_put_bool(&j, "interrupted", is_interrupted);
-    json_put_number(&j, "seconds", result->seconds);
-    json_put_number(&j, "setup_seconds", result->setup_seconds);
+    json_put_number(&j, "seconds", round(1e6*result->seconds)/1e6);
+    json_put_number(&j, "setup_seconds", round(1e6*result->setup_seconds)/1e6);
     json_put_integer(&j, "paths", result->n_paths);
     json_put_integer(&j, "rays", result->n_rays);
     json_put_integer(&j, "shadow_rays", result->n_shadow_rays);
