@@ -88,6 +88,8 @@ static facet_status job_create(const scene *s, const render_settings *r, uint32_
 {
     *j = (job){.context = {.scene = s, .camera = &s->cameras[r->camera], .settings = r}};
     j->context.sampler  = sampler_create(r->sampler, r->seed, r->spp);
+    for (size_t i = 0; i < s->n_materials; i++)
+        if (s->materials[i].transmission > 0) j->context.has_mixed_surfaces = true;
     light_set *lights   = NULL;
     tracer *built       = NULL;
     facet_status status = light_set_create(s, &lights, why);
@@ -134,21 +136,26 @@ static render_progress describe(const job *j, const render_settings *r, uint32_t
     return p;
 }
 
+/* Between two reports of progress [s]. */
+static const double PROGRESS_INTERVAL = 0.1;
+
 /* Runs passes until an end is reached; returns the samples per pixel of whole passes. */
 static uint32_t run_passes(job *j, thread_pool *pool, const render_settings *r, double start, double *noise)
 {
     const uint32_t n_tiles = j->n_tiles_x*(uint32_t)((r->crop_h + TILE_SIZE - 1)/TILE_SIZE);
     uint32_t n_done        = 0;
     bool is_wanted         = true;
+    double told            = 0; /* when progress was last reported */
     *noise                 = -1;
     while (is_wanted && n_done < r->spp) {
         j->first_sample = n_done;
         j->n_samples    = pass_length(n_done, r->spp);
         j->n_tiles_done = 0;
         thread_pool_start(pool, run_tile, j, n_tiles);
-        while (!thread_pool_wait(pool, 0.1))
+        while (!thread_pool_wait(pool, PROGRESS_INTERVAL))
             if (r->progress) {
-                const render_progress p = describe(j, r, n_tiles, n_done, now() - start, *noise);
+                told                    = now() - start;
+                const render_progress p = describe(j, r, n_tiles, n_done, told, *noise);
                 if (is_wanted && !r->progress(r->user, &p)) {
                     is_wanted = false;
                     /* The first pass is finished, so that there is a whole picture; later ones need not be. */
@@ -159,6 +166,12 @@ static uint32_t run_passes(job *j, thread_pool *pool, const render_settings *r, 
         n_done += j->n_samples;
         *noise  = film_noise(&j->film);
         const double elapsed = now() - start;
+        if (r->progress && elapsed - told >= PROGRESS_INTERVAL) { /* short passes end before the wait does */
+            told                    = elapsed;
+            j->n_samples            = 0;
+            const render_progress p = describe(j, r, n_tiles, n_done, elapsed, *noise);
+            if (!r->progress(r->user, &p)) is_wanted = false;
+        }
         if (r->time_limit > 0 && elapsed >= r->time_limit) is_wanted = false;
         if (r->noise_target > 0 && *noise >= 0 && n_done >= 16 && *noise <= r->noise_target) is_wanted = false;
     }
