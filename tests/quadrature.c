@@ -5,6 +5,7 @@
 #include <math.h>
 
 #define PI 3.14159265358979323846
+#define DEEPEST 9
 #define REACH 3.8 /* exp(pi/2 sinh(3.8)) = 2e15 */
 
 quadrature gauss_legendre(int n, double low, double high)
@@ -83,7 +84,7 @@ static double gauss_5x5(plane_function f, const void *context, const double low[
 }
 
 static double refine(plane_function f, const void *context, const double low[2], const double high[2], double whole,
-                     double tolerance, int depth)
+                     double tolerance, int least_depth, int depth)
 {
     const double middle[2] = {0.5*(low[0] + high[0]), 0.5*(low[1] + high[1])};
     double lows[4][2], highs[4][2], parts[4], sum = 0;
@@ -96,14 +97,16 @@ static double refine(plane_function f, const void *context, const double low[2],
         parts[q] = gauss_5x5(f, context, lows[q], highs[q]);
         sum += parts[q];
     }
-    if (fabs(sum - whole) <= tolerance || depth == 7) return sum;
+    if ((fabs(sum - whole) <= tolerance && depth >= least_depth) || depth == DEEPEST) return sum;
     double refined = 0;
     /* Half the tolerance for each quarter: they rarely all need it. */
-    for (int q = 0; q < 4; q++) refined += refine(f, context, lows[q], highs[q], parts[q], 0.5*tolerance, depth + 1);
+    for (int q = 0; q < 4; q++)
+        refined += refine(f, context, lows[q], highs[q], parts[q], 0.5*tolerance, least_depth, depth + 1);
     return refined;
 }
 
-double cubature(plane_function f, const void *context, const double low[2], const double high[2], double tolerance)
+double cubature(plane_function f, const void *context, const double low[2], const double high[2], double tolerance,
+                int least_depth)
 {
-    return refine(f, context, low, high, gauss_5x5(f, context, low, high), tolerance, 0);
+    return refine(f, context, low, high, gauss_5x5(f, context, low, high), tolerance, least_depth, 0);
 }

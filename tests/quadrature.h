@@ -28,9 +28,10 @@ quadrature half_line(double h);
 quadrature unit_interval(double h);
 
 /* Int f(x, y) over a rectangle, by halving until a 5 x 5 Gauss rule and its four quarters agree within
- * `tolerance` (absolute, of the whole), at most 2^14 pieces. */
+ * `tolerance` (absolute, of the whole); at least `least_depth` times, at most 9 times. */
 typedef double (*plane_function)(double x, double y, const void *context);
-double cubature(plane_function f, const void *context, const double low[2], const double high[2], double tolerance);
+double cubature(plane_function f, const void *context, const double low[2], const double high[2], double tolerance,
+                int least_depth);
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,37 @@
+/* test_chi_square_mixtures.c: draws of all normals, of the Lambertian lobe, and of mixtures with it follow their density.
+ * SPDX-License-Identifier: MIT */
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "tests/any_bsdf.h"
+#include "tests/sampler_check.h"
+
+static const sampler_case cases[] = {
+    {"lambert", .5, 1},
+    {"ggx alpha=.3 sampling=ndf", .6, 1},
+    {"ggx alpha=.6 sampling=ndf", .1, 2},
+    {"ggx alpha_x=.1 alpha_y=.6 sampling=ndf", .4, 3},
+    {"ggx alpha=.2 kd=.5 ks=.3,.5,.7", .5, 4},
+    {"ggx alpha=.4 kd=.2 ior=1.5 sampling=ndf", .3, 5},
+    {"metallic_roughness roughness=.3", .8, 1},
+    {"metallic_roughness roughness=.6 metallic=.5", .2, 2},
+    {"metallic_roughness metallic=1 roughness=.7", .5, 3},
+};
+
+static void mixtures_draw_their_density(void **state)
+{
+    (void)state;
+    check_samplers(cases, sizeof cases/sizeof cases[0]);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(mixtures_draw_their_density),
+    };
+    return cmocka_run_group_tests_name("chi_square_mixtures", tests, NULL, NULL);
+}

@@ -1,0 +1,167 @@
+/* sampler_check.c: see sampler_check.h.
+ * SPDX-License-Identifier: MIT */
+#include "tests/sampler_check.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include <cmocka.h>
+
+#include "tests/any_bsdf.h"
+#include "tests/draws.h"
+#include "tests/quadrature.h"
+
+enum { BANDS = 20, SECTORS = 20, CELLS = BANDS*SECTORS, PILOT = 20000, CHUNK = 4096 };
+
+#define PI 3.14159265358979323846
+
+typedef struct cell_grid {
+    double cosines[BANDS + 1], azimuths[BANDS][SECTORS + 1];
+} cell_grid;
+
+typedef struct chunk {
+    float data[7][CHUNK];
+} chunk;
+
+static facet_samples outputs(chunk *c)
+{
+    return (facet_samples){c->data[0], c->data[1], c->data[2], c->data[3], c->data[4], c->data[5], c->data[6]};
+}
+
+void draw_from_bsdf(const void *context, const float wo[3], uint64_t seed, int n, facet_samples to)
+{
+    static _Thread_local float view[3][CHUNK], u[3][CHUNK];
+    draws random = {seed};
+    for (int i = 0; i < n; i++)
+        for (int k = 0; k < 3; k++) {
+            view[k][i] = wo[k];
+            u[k][i] = (float)draw(&random);
+        }
+    facet_bsdf_sample_batch(context, (size_t)n, (facet_dirs){view[0], view[1], view[2]}, (facet_dirs){u[0], u[1], u[2]},
+                            to);
+}
+
+/* The number of inner borders at or below x. */
+static int interval_of(const double *borders, int n, double x)
+{
+    int low = 0, high = n - 1;
+    while (low < high) {
+        const int middle = (low + high + 1)/2;
+        if (x >= borders[middle]) low = middle;
+        else high = middle - 1;
+    }
+    return low;
+}
+
+static int cell_of(const cell_grid *grid, const chunk *c, int i)
+{
+    const int band = interval_of(grid->cosines, BANDS, (double)c->data[2][i]);
+    return band*SECTORS + interval_of(grid->azimuths[band], SECTORS, (double)atan2f(c->data[1][i], c->data[0][i]));
+}
+
+static int compare_doubles(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+/* Borders at the quantiles of `values`, between `low` and `high`. */
+static void quantiles(double *values, int n, double low, double high, double *borders, int n_parts)
+{
+    qsort(values, (size_t)n, sizeof *values, compare_doubles);
+    borders[0] = low;
+    borders[n_parts] = high;
+    for (int k = 1; k < n_parts; k++)
+        borders[k] = n > 0 ? values[(long)n*k/n_parts] : low + (high - low)*k/n_parts;
+}
+
+static void place_borders(cell_grid *grid, sampler draw_some, const void *context, const float wo[3], uint64_t seed)
+{
+    static _Thread_local double z[PILOT], phi[PILOT], values[PILOT];
+    static _Thread_local chunk c;
+    int n = 0;
+    for (int start = 0; start < PILOT; start += CHUNK) {
+        const int count = PILOT - start < CHUNK ? PILOT - start : CHUNK;
+        draw_some(context, wo, seed + (uint64_t)start, count, outputs(&c));
+        for (int i = 0; i < count; i++)
+            if (c.data[3][i] > 0) {
+                z[n] = (double)c.data[2][i];
+                phi[n++] = (double)atan2f(c.data[1][i], c.data[0][i]);
+            }
+    }
+    for (int i = 0; i < n; i++) values[i] = z[i];
+    quantiles(values, n, 0, 1, grid->cosines, BANDS);
+    for (int band = 0; band < BANDS; band++) {
+        int m = 0;
+        for (int i = 0; i < n; i++)
+            if (interval_of(grid->cosines, BANDS, z[i]) == band) values[m++] = phi[i];
+        quantiles(values, m, -PI, PI, grid->azimuths[band], SECTORS);
+    }
+}
+
+typedef struct density_of {
+    const facet_bsdf64 *bsdf;
+    double wo[3];
+} density_of;
+
+static double density_at(double cos_theta, double phi, const void *context)
+{
+    const density_of *of = context;
+    double wi[3];
+    any_direction(cos_theta, phi, wi);
+    return facet_bsdf64_pdf(of->bsdf, wi, of->wo);
+}
+
+chi_square sampler_check(sampler draw_some, const void *context, const facet_bsdf64 *density, const float wo[3], int n,
+                         uint64_t seed)
+{
+    static _Thread_local cell_grid grid;
+    static _Thread_local double expected[CELLS + 1], observed[CELLS + 1];
+    static _Thread_local chunk c;
+    place_borders(&grid, draw_some, context, wo, seed*1000003 + 1);
+    const density_of of = {density, {(double)wo[0], (double)wo[1], (double)wo[2]}};
+    double below = 1;
+    for (int i = 0; i < CELLS; i++) {
+        const int band = i/SECTORS, sector = i%SECTORS;
+        const double low[2] = {grid.cosines[band], grid.azimuths[band][sector]};
+        const double high[2] = {grid.cosines[band + 1], grid.azimuths[band][sector + 1]};
+        /* The outer cells are wide and the lobe is in a corner of them: a first look would miss it. */
+        const int is_outer = band == 0 || band == BANDS - 1 || sector == 0 || sector == SECTORS - 1;
+        /* An error of 2e-8 is 0.02 samples of a million, where a cell's own spread is some 50. */
+        const double mass = cubature(density_at, &of, low, high, 2e-8, is_outer ? 3 : 0);
+        below -= mass;
+        expected[i] = mass*n;
+        observed[i] = 0;
+    }
+    expected[CELLS] = fmax(below, 0)*n;
+    observed[CELLS] = 0;
+    for (int start = 0; start < n; start += CHUNK) {
+        const int count = n - start < CHUNK ? n - start : CHUNK;
+        draw_some(context, wo, (seed*1000003 + 2)*1000003 + (uint64_t)start, count, outputs(&c));
+        for (int i = 0; i < count; i++) observed[c.data[3][i] > 0 ? cell_of(&grid, &c, i) : CELLS]++;
+    }
+    /* What the cubature leaves undecided, its tolerance times the cells, is not zero probability. */
+    if (observed[CELLS] > 0 && below < 2e-8*CELLS) expected[CELLS] = 2e-8*CELLS*n;
+    return chi_square_test(expected, observed, CELLS + 1);
+}
+
+void check_samplers(const sampler_case *cases, int n_cases)
+{
+    const double level = sidak_level(0.01, n_cases);
+    for (int i = 0; i < n_cases; i++) {
+        const any_bsdf bsdf = any_bsdf_of(cases[i].spec, 0);
+        double wo[3];
+        any_direction(cases[i].cos_o, cases[i].phi_o, wo);
+        const float view[3] = {(float)wo[0], (float)wo[1], (float)wo[2]};
+        const chi_square result = sampler_check(draw_from_bsdf, &bsdf.single, &bsdf.twice, view, SAMPLER_CHECK_COUNT,
+                                                (uint64_t)(i + 1));
+        print_message("  %-44s cos_o %-5g chi^2 %8.1f of %d, p %.3g\n", cases[i].spec, cases[i].cos_o, result.statistic,
+                      result.degrees, result.p);
+        if (!(result.p >= level) || result.forbidden > 0)
+            fail_msg("%s, wo (%a, %a, %a): p = %g is below %g, or %g samples are where none should be", cases[i].spec,
+                     (double)view[0], (double)view[1], (double)view[2], result.p, level, result.forbidden);
+    }
+}
