@@ -157,7 +157,7 @@ const command eval_command = {
         "A CSV file needs the first six columns, in any order; other columns are left out.  Directions have unit\n"
         "length within 1e-3 and are normalised.  Mirrors and smooth glass are 0 here: see `facet sample`.\n",
     .examples = "  facet eval 'ggx alpha=.3' --wi 0,0.6,0.8 --wo 0,-0.6,0.8\n"
-                "  facet eval 'gtr alpha=.1 gamma=1.5' --csv directions.csv --double > values.csv\n",
+                "  facet eval 'beckmann alpha=.1' --csv directions.csv --double > values.csv\n",
     .options = options,
     .n_options = sizeof options/sizeof *options,
     .run = run,

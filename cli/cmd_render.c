@@ -249,7 +249,7 @@ const command render_command = {
         "command line, scene hash, seed, ...) as metadata.\n",
     .examples = "  facet render\n"
                 "  facet render scene.glb -o scene.exr -o scene.png --spp 256 --size 1280x720\n"
-                "  facet render scene.gltf --env studio.hdr --material body='ggx alpha=.1 metal=Au' --time 60\n",
+                "  facet render scene.gltf --env studio.hdr --material body='ggx alpha=.1 ks=.9,.7,.3' --time 60\n",
     .options = options,
     .n_options = sizeof options/sizeof *options,
     .run = run,

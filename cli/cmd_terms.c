@@ -79,7 +79,7 @@ const command terms_command = {
         "(sin theta cos phi, sin theta sin phi, cos theta), built in double and then rounded unless --double.\n"
         "Models without a distribution (lambert, glass) print zeros.\n",
     .examples = "  printf 'cos_theta\\n1\\n0.5\\n' | facet terms 'ggx alpha=.3' --csv -\n"
-                "  facet terms 'gtr alpha=.1 gamma=1.5' --csv angles.csv --double\n",
+                "  facet terms 'beckmann alpha=.1' --csv angles.csv --double\n",
     .options = options,
     .n_options = sizeof options/sizeof *options,
     .run = run,

@@ -28,7 +28,7 @@ static void print_help(void)
     printf("facet %s: microfacet reflection, exact, and a path tracer built on it\n\n", facet_version());
     print_usage(stdout);
     printf("\nMaterials are written as MODEL key=value ...; `facet materials` lists the models and their keys:\n"
-           "  facet albedo 'ggx alpha=.3 metal=Au'\n"
+           "  facet albedo 'ggx alpha=.3 ks=.9,.7,.3'\n"
            "Directions are unit vectors in the local frame with the normal (0,0,1), pointing away from the surface.\n"
            "Results go to stdout, messages and progress to stderr.\n\n"
            "  facet --version            print the version\n"

@@ -107,6 +107,29 @@ static void every_option_in_help_is_known(void **state)
     assert_true(n >= 35); /* options and the mentions of options in the help of others */
 }
 
+/* Each material that help shows between quotes is one that the library knows. */
+static void materials_in_help_are_valid(void **state)
+{
+    (void)state;
+    size_t n = 0;
+    for (size_t i = 0; i <= N_HELPS; i++) {
+        program_run run = RUN("help", i < N_HELPS ? helps[i].name : NULL);
+        for (const char *p = run.out; (p = strchr(p, '\'')) != NULL;) {
+            char spec[128];
+            const size_t length = strcspn(++p, "'\n");
+            snprintf(spec, sizeof spec, "%.*s", (int)length, p);
+            p += length + (p[length] != 0);
+            if (!strchr(spec, '=') || strchr(spec, '\\')) continue; /* SPEC, or the text of a CSV file */
+            program_run use = RUN("albedo", spec, "--cos", "1");
+            expect(&use, 0, "", "");
+            program_run_free(&use);
+            n++;
+        }
+        program_run_free(&run);
+    }
+    assert_true(n >= 10);
+}
+
 static void overview_lists_every_command_and_status(void **state)
 {
     (void)state;
@@ -291,6 +314,7 @@ int main(void)
         cmocka_unit_test(no_arguments_print_the_usage_and_fail),
         cmocka_unit_test(help_of_each_command_is_complete),
         cmocka_unit_test(every_option_in_help_is_known),
+        cmocka_unit_test(materials_in_help_are_valid),
         cmocka_unit_test(overview_lists_every_command_and_status),
         cmocka_unit_test(mistakes_give_one_kind_line_and_their_status),
         cmocka_unit_test(messages_stay_on_one_line_whatever_the_file_is_called),
