@@ -111,7 +111,7 @@ static void summarise(const render_options *o, const render_result *result)
 {
     char time[32], noise[32] = "";
     format_duration(result->seconds, time, sizeof time);
-    if (result->noise >= 0) snprintf(noise, sizeof noise, ", noise %.2g %%", 100*result->noise);
+    if (result->noise >= 0) snprintf(noise, sizeof noise, ", noise %.3g %%", 100*result->noise);
     for (size_t i = 0; i < o->outputs.n; i++)
         fprintf(stderr, "facet: wrote %s: %zux%zu, %" PRIu32 " spp, %s%s\n", o->outputs.items[i], result->picture.width,
                 result->picture.height, result->spp, time, noise);

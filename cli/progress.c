@@ -42,7 +42,7 @@ static int terminal_columns(void)
 static void describe(const render_progress *state, char *text, size_t size)
 {
     char left[32], noise[32] = "", time[48] = "";
-    if (state->noise >= 0) snprintf(noise, sizeof noise, ", noise %.2g %%", 100*fmin(state->noise, 9.99));
+    if (state->noise >= 0) snprintf(noise, sizeof noise, ", noise %.3g %%", 100*fmin(state->noise, 9.99));
     if (state->time_left >= 0) {
         format_duration(state->time_left, left, sizeof left);
         snprintf(time, sizeof time, ", %s left", left);

@@ -1,7 +1,8 @@
 /* first_material.c: a material from its text form, evaluated for one pair of directions.
  * SPDX-License-Identifier: MIT */
-#include <facet/facet.h>
 #include <stdio.h>
+
+#include "facet/facet.h"
 
 int main(void)
 {
