@@ -32,12 +32,12 @@ void alias_table_destroy(alias_table *table);
 static inline uint32_t alias_table_draw(const alias_table *table, uint32_t u, uint32_t *rest)
 {
     const uint64_t scaled = (uint64_t)u*table->n;
-    const uint32_t cell   = (uint32_t)(scaled >> 32);
-    const double coin     = (double)(uint32_t)scaled*0x1p-32;
-    const double kept     = (double)table->cells[cell].threshold;
-    const int is_kept     = coin < kept;
-    const double left     = is_kept ? coin/kept : (coin - kept)/(1 - kept);
-    *rest                 = (uint32_t)(left*0x1p32 < 0x1p32 - 1 ? left*0x1p32 : 0x1p32 - 1);
+    const uint32_t cell = (uint32_t)(scaled >> 32);
+    const double coin = (double)(uint32_t)scaled*0x1p-32;
+    const double kept = (double)table->cells[cell].threshold;
+    const int is_kept = coin < kept;
+    const double left = is_kept ? coin/kept : (coin - kept)/(1 - kept);
+    *rest = (uint32_t)(left*0x1p32 < 0x1p32 - 1 ? left*0x1p32 : 0x1p32 - 1);
     return is_kept ? cell : table->cells[cell].alias;
 }
 

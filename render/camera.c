@@ -23,25 +23,25 @@ void camera_matrices(const camera *c, size_t width, size_t height, float world_t
     const real3 origin = map_column(c->to_world, 3);
     for (int j = 0; j < 3; j++) {
         const real3 axis = map_column(c->to_world, j);
-        world_to_camera[j]      = axis.x;
-        world_to_camera[4 + j]  = axis.y;
-        world_to_camera[8 + j]  = axis.z;
+        world_to_camera[j] = axis.x;
+        world_to_camera[4 + j] = axis.y;
+        world_to_camera[8 + j] = axis.z;
         world_to_camera[12 + j] = -dot3(origin, axis);
     }
     for (int i = 0; i < 4; i++) world_to_camera[4*i + 3] = i == 3 ? 1.0f : 0.0f;
-    const float aspect    = (float)width/(float)height;
+    const float aspect = (float)width/(float)height;
     float projection[16] = {0};
     if (c->is_orthographic) {
-        projection[0]  = 1/(aspect*c->ymag);
-        projection[5]  = 1/c->ymag;
+        projection[0] = 1/(aspect*c->ymag);
+        projection[5] = 1/c->ymag;
         projection[10] = -1;
         projection[15] = 1;
     } else {
         const float tan = tanf(0.5f*c->yfov);
-        projection[0]   = 1/(aspect*tan);
-        projection[5]   = 1/tan;
-        projection[10]  = -1;
-        projection[11]  = -1; /* w = -z */
+        projection[0] = 1/(aspect*tan);
+        projection[5] = 1/tan;
+        projection[10] = -1;
+        projection[11] = -1; /* w = -z */
     }
     multiply(world_to_camera, projection, world_to_ndc);
 }

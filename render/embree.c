@@ -43,8 +43,8 @@ static void record_error(void *user, enum RTCError code, const char *text)
 {
     tracer *t = user;
     if (t->error != RTC_ERROR_NONE) return;
-    t->error       = code;
-    size_t length  = text ? strlen(text) : 0;
+    t->error = code;
+    size_t length = text ? strlen(text) : 0;
     if (length >= sizeof t->message) length = sizeof t->message - 1;
     if (length) memcpy(t->message, text, length);
 }
@@ -53,21 +53,21 @@ static void record_error(void *user, enum RTCError code, const char *text)
  * the ray and the triangle alone, so that the order of traversal does not matter. */
 static void filter_by_opacity(const struct RTCFilterFunctionNArguments *args)
 {
-    const opacity_data *data      = args->geometryUserPtr;
-    const tracer *t               = data->owner;
-    const struct RTCRay *r        = (const struct RTCRay *)args->ray;
-    const struct RTCHit *h        = (const struct RTCHit *)args->hit;
+    const opacity_data *data = args->geometryUserPtr;
+    const tracer *t = data->owner;
+    const struct RTCRay *r = (const struct RTCRay *)args->ray;
+    const struct RTCHit *h = (const struct RTCHit *)args->hit;
     if (args->valid[0] == 0) return;
     const float opacity = t->opacity(t->opacity_user, data->mesh, h->primID, h->u, h->v);
-    const uint32_t id   = hash_pair(hash_pair(r->id, h->instID[0]), hash_pair(h->geomID, h->primID));
+    const uint32_t id = hash_pair(hash_pair(r->id, h->instID[0]), hash_pair(h->geomID, h->primID));
     if (!(fraction(id) < opacity)) args->valid[0] = 0;
 }
 
 /* The triangles of a mesh as an Embree geometry, in world space when `to_world` is given; NULL on failure. */
 static RTCGeometry triangles_create(tracer *t, size_t mesh_index, const float (*to_world)[4])
 {
-    const mesh *m   = &t->scene->meshes[mesh_index];
-    RTCGeometry g   = rtcNewGeometry(t->device, RTC_GEOMETRY_TYPE_TRIANGLE);
+    const mesh *m = &t->scene->meshes[mesh_index];
+    RTCGeometry g = rtcNewGeometry(t->device, RTC_GEOMETRY_TYPE_TRIANGLE);
     float *vertices = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3*sizeof(float),
                                               m->n_vertices);
     uint32_t *indices = rtcSetNewGeometryBuffer(g, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3*sizeof(uint32_t),
@@ -78,8 +78,8 @@ static RTCGeometry triangles_create(tracer *t, size_t mesh_index, const float (*
     }
     for (size_t i = 0; i < m->n_vertices; i++) {
         const real3 local = vector_of(m->positions[i]);
-        const real3 p     = to_world ? map_point(to_world, local) : local;
-        vertices[3*i]     = p.x;
+        const real3 p = to_world ? map_point(to_world, local) : local;
+        vertices[3*i] = p.x;
         vertices[3*i + 1] = p.y;
         vertices[3*i + 2] = p.z;
     }
@@ -120,8 +120,8 @@ static RTCScene shared_scene(tracer *t, size_t mesh_index)
 static bool is_invertible(const float m[3][4])
 {
     const float scale = max_abs3(map_column(m, 0))*max_abs3(map_column(m, 1))*max_abs3(map_column(m, 2));
-    const float det   = map_determinant(m);
-    return isfinite(scale) && fabsf(det) > 1e-7f*scale;
+    const float det = map_determinant(m);
+    return isfinite(scale) && kabs(det) > 1e-7f*scale;
 }
 
 static bool add_instance(tracer *t, size_t i, bool is_shared)
@@ -166,7 +166,7 @@ static bool add_spheres(tracer *t)
 
 static bool build(tracer *t)
 {
-    const scene *s  = t->scene;
+    const scene *s = t->scene;
     size_t *n_users = calloc(s->n_meshes + 1, sizeof *n_users);
     if (!n_users) return false;
     for (size_t i = 0; i < s->n_instances; i++) n_users[s->instances[i].mesh]++;
@@ -204,8 +204,8 @@ static facet_status choose_isa(const char *wanted, const char **chosen, facet_er
     for (size_t i = 0; i < sizeof isa_names/sizeof isa_names[0]; i++)
         if (wanted ? strcmp(wanted, isa_names[i]) == 0 : cpu_has(isa_names[i])) {
             if (!cpu_has(isa_names[i]))
-                return facet_error_set(why, FACET_UNSUPPORTED, "isa", "this processor has no %s; leave the choice to facet",
-                                       wanted);
+                return facet_error_set(why, FACET_UNSUPPORTED, "isa",
+                                       "this processor has no %s; leave the choice to facet", wanted);
             *chosen = isa_names[i];
             return FACET_OK;
         }
@@ -221,14 +221,14 @@ facet_status tracer_create(const scene *s, const char *isa, uint32_t n_threads, 
     if (status) return status;
     tracer *t = calloc(1, sizeof *t);
     if (!t) return facet_error_set(why, FACET_NO_MEMORY, "", "no memory for the scene");
-    t->scene        = s;
-    t->opacity      = opacity;
+    t->scene = s;
+    t->opacity = opacity;
     t->opacity_user = opacity_user;
-    t->isa          = chosen;
+    t->isa = chosen;
     char config[64];
     snprintf(config, sizeof config, "isa=%s,threads=%u", strcmp(chosen, "default") == 0 ? "" : chosen, n_threads);
-    t->device    = rtcNewDevice(config);
-    t->shared    = calloc(s->n_meshes + 1, sizeof *t->shared);
+    t->device = rtcNewDevice(config);
+    t->shared = calloc(s->n_meshes + 1, sizeof *t->shared);
     t->opacities = calloc(s->n_meshes + 1, sizeof *t->opacities);
     if (t->device && t->shared && t->opacities) {
         rtcSetDeviceErrorFunction(t->device, record_error, t);
@@ -279,9 +279,9 @@ static struct RTCRay ray_for_embree(const ray *r)
                            .dir_x = r->direction[0],
                            .dir_y = r->direction[1],
                            .dir_z = r->direction[2],
-                           .tfar  = r->t_max,
-                           .mask  = ~0u,
-                           .id    = r->seed};
+                           .tfar = r->t_max,
+                           .mask = ~0u,
+                           .id = r->seed};
 }
 
 bool tracer_intersect(const tracer *t, const ray *r, hit *found)
@@ -289,15 +289,15 @@ bool tracer_intersect(const tracer *t, const ray *r, hit *found)
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     struct RTCRayHit rh = {.ray = ray_for_embree(r)};
-    rh.hit.geomID    = RTC_INVALID_GEOMETRY_ID;
+    rh.hit.geomID = RTC_INVALID_GEOMETRY_ID;
     rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersect1(t->top, &context, &rh);
     if (rh.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
     const bool is_instanced = rh.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
-    *found = (hit){.t         = rh.ray.tfar,
-                   .u         = rh.hit.u,
-                   .v         = rh.hit.v,
-                   .instance  = is_instanced ? rh.hit.instID[0] : rh.hit.geomID,
+    *found = (hit){.t = rh.ray.tfar,
+                   .u = rh.hit.u,
+                   .v = rh.hit.v,
+                   .instance = is_instanced ? rh.hit.instID[0] : rh.hit.geomID,
                    .primitive = rh.hit.primID};
     return true;
 }

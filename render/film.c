@@ -24,8 +24,8 @@ void film_destroy(film *f)
 
 void film_add(film *f, size_t x, size_t y, const float rgb[3])
 {
-    film_pixel *p      = &f->pixels[y*f->width + x];
-    const double c[3]  = {rgb[0], rgb[1], rgb[2]};
+    film_pixel *p = &f->pixels[y*f->width + x];
+    const double c[3] = {rgb[0], rgb[1], rgb[2]};
     const double light = luminance_of(c);
     for (int k = 0; k < 3; k++) p->sum[k] += c[k];
     p->luminance_squares += light*light;
@@ -40,8 +40,8 @@ double film_noise(const film *f)
         const film_pixel *p = &f->pixels[i];
         if (p->n < 2) return -1;
         const double n = p->n, m = luminance_of(p->sum)/n;
-        variance      += fmax(p->luminance_squares/n - m*m, 0)/(n - 1);
-        mean          += m;
+        variance += fmax(p->luminance_squares/n - m*m, 0)/(n - 1);
+        mean += m;
     }
     return mean > 0 ? sqrt(variance/(double)n_pixels)/(mean/(double)n_pixels) : -1;
 }
@@ -49,7 +49,7 @@ double film_noise(const film *f)
 facet_status film_develop(const film *f, image *picture)
 {
     const size_t n_pixels = f->width*f->height;
-    float *pixels         = malloc(3*n_pixels*sizeof *pixels);
+    float *pixels = malloc(3*n_pixels*sizeof *pixels);
     if (!pixels) return FACET_NO_MEMORY;
     for (size_t i = 0; i < n_pixels; i++) {
         const film_pixel *p = &f->pixels[i];

@@ -16,7 +16,8 @@ static inline real3 vector_of(const float v[3])
 /* M (p,1) and M (d,0) of a 3x4 map. */
 static inline real3 map_point(const float m[3][4], real3 p)
 {
-    return make3(m[0][0]*p.x + m[0][1]*p.y + m[0][2]*p.z + m[0][3], m[1][0]*p.x + m[1][1]*p.y + m[1][2]*p.z + m[1][3],
+    return make3(m[0][0]*p.x + m[0][1]*p.y + m[0][2]*p.z + m[0][3],
+                 m[1][0]*p.x + m[1][1]*p.y + m[1][2]*p.z + m[1][3],
                  m[2][0]*p.x + m[2][1]*p.y + m[2][2]*p.z + m[2][3]);
 }
 
@@ -66,8 +67,8 @@ static inline frame frame_around(real3 n, real3 tangent, float handedness)
 {
     real3 t = sub3(tangent, scale3(dot3(tangent, n), n));
     if (!(dot3(t, t) > 1e-12f*dot3(tangent, tangent))) {
-        const real3 axis = fabsf(n.x) < 0.7f ? make3(1, 0, 0) : make3(0, 1, 0);
-        t                = sub3(axis, scale3(dot3(axis, n), n));
+        const real3 axis = kabs(n.x) < 0.7f ? make3(1, 0, 0) : make3(0, 1, 0);
+        t = sub3(axis, scale3(dot3(axis, n), n));
     }
     t = normalize3(t);
     return (frame){.t = t, .b = scale3(handedness, cross3(n, t)), .n = n};
@@ -76,7 +77,15 @@ static inline frame frame_around(real3 n, real3 tangent, float handedness)
 /* The largest of |x|, |y|, |z|. */
 static inline float max_abs3(real3 v)
 {
-    return fmaxf(fabsf(v.x), fmaxf(fabsf(v.y), fabsf(v.z)));
+    return kmax(kabs(v.x), kmax(kabs(v.y), kabs(v.z)));
+}
+
+/* The unit normal of a triangle with these edges, counter-clockwise seen from the front; the edges are scaled
+ * first, because squares of squares of small lengths underflow.  (0,0,1) for a triangle without area. */
+static inline real3 normal_of_edges(real3 e1, real3 e2)
+{
+    const float a = max_abs3(e1), b = max_abs3(e2);
+    return normalize3(cross3(scale3(a > 0 ? 1/a : 0.0f, e1), scale3(b > 0 ? 1/b : 0.0f, e2)));
 }
 
 static inline float luminance(real3 c)

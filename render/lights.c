@@ -17,10 +17,10 @@ typedef struct emitter {
     emitter_kind kind;
     uint32_t instance, primitive; /* triangle; primitive alone: sphere or punctual light */
     bool is_double_sided;
-    float area;                   /* triangle [m^2] */
-    real3 origin, edge1, edge2;   /* triangle, world space */
-    real3 normal;                 /* triangle, unit, on the front side */
-    float offset;                 /* how far shadow rays stop from the surface [m] */
+    float area;                 /* triangle [m^2] */
+    real3 origin, edge1, edge2; /* triangle, world space */
+    real3 normal;               /* triangle, unit, on the front side */
+    float offset;               /* how far shadow rays stop from the surface [m] */
 } emitter;
 
 struct light_set {
@@ -38,14 +38,14 @@ static facet_status add_emitter(light_set *set, double **powers, const emitter *
 {
     if (set->n_emitters == set->capacity) {
         const uint32_t capacity = set->capacity ? 2*set->capacity : 16;
-        emitter *emitters       = realloc(set->emitters, capacity*sizeof *emitters);
+        emitter *emitters = realloc(set->emitters, capacity*sizeof *emitters);
         if (emitters) set->emitters = emitters;
         double *larger = realloc(*powers, capacity*sizeof *larger);
         if (larger) *powers = larger;
         if (!emitters || !larger) return FACET_NO_MEMORY;
         set->capacity = capacity;
     }
-    (*powers)[set->n_emitters]       = isfinite(power) && power > 0 ? power : 0;
+    (*powers)[set->n_emitters] = isfinite(power) && power > 0 ? power : 0;
     set->emitters[set->n_emitters++] = *e;
     return FACET_OK;
 }
@@ -55,21 +55,22 @@ static facet_status add_emitter(light_set *set, double **powers, const emitter *
 static double mean_emission(const scene *s, const mesh *m, uint32_t triangle)
 {
     const material *mat = &s->materials[m->material];
-    const double full   = (double)luminance(vector_of(mat->emission));
+    const double full = (double)luminance(vector_of(mat->emission));
     if (mat->emissive_texture.texture == NONE) return full;
     double sum = 0;
     enum { STEPS = 4 };
     for (int i = 0; i < STEPS; i++)
         for (int j = 0; i + j < STEPS; j++)
-            sum += (double)luminance(surface_emission(s, m, triangle, ((float)i + 1/3.0f)/STEPS, ((float)j + 1/3.0f)/STEPS));
+            sum += (double)luminance(
+                surface_emission(s, m, triangle, ((float)i + 1/3.0f)/STEPS, ((float)j + 1/3.0f)/STEPS));
     return 0.01*full + sum/(STEPS*(STEPS + 1)/2);
 }
 
 static facet_status add_instance(light_set *set, double **powers, size_t index)
 {
-    const scene *s      = set->scene;
-    const instance *in  = &s->instances[index];
-    const mesh *m       = &s->meshes[in->mesh];
+    const scene *s = set->scene;
+    const instance *in = &s->instances[index];
+    const mesh *m = &s->meshes[in->mesh];
     const material *mat = &s->materials[m->material];
     set->first_of_instance[index] = NONE;
     if (mat->kind == SURFACE_UNLIT || !(max_of3(vector_of(mat->emission)) > 0)) return FACET_OK;
@@ -79,15 +80,14 @@ static facet_status add_instance(light_set *set, double **powers, size_t index)
         const real3 p0 = map_point(in->to_world, vector_of(m->positions[m->triangles[i][0]]));
         const real3 p1 = map_point(in->to_world, vector_of(m->positions[m->triangles[i][1]]));
         const real3 p2 = map_point(in->to_world, vector_of(m->positions[m->triangles[i][2]]));
-        emitter e      = {.kind = EMITTER_TRIANGLE, .instance = (uint32_t)index, .primitive = i};
-        e.origin       = p0;
-        e.edge1        = sub3(p1, p0);
-        e.edge2        = sub3(p2, p0);
-        const real3 cross = cross3(e.edge1, e.edge2);
-        e.area            = 0.5f*length3(cross);
-        e.normal          = scale3(sign, normalize3(cross));
+        emitter e = {.kind = EMITTER_TRIANGLE, .instance = (uint32_t)index, .primitive = i};
+        e.origin = p0;
+        e.edge1 = sub3(p1, p0);
+        e.edge2 = sub3(p2, p0);
+        e.area = 0.5f*length3(cross3(e.edge1, e.edge2));
+        e.normal = scale3(sign, normal_of_edges(e.edge1, e.edge2));
         e.is_double_sided = mat->is_double_sided;
-        e.offset          = 3e-6f*fmaxf(max_abs3(p0), fmaxf(max_abs3(p1), max_abs3(p2)));
+        e.offset = 3e-6f*kmax(max_abs3(p0), kmax(max_abs3(p1), max_abs3(p2)));
         const double power = (double)PI*(double)e.area*mean_emission(s, m, i)*(e.is_double_sided ? 2 : 1);
         if (add_emitter(set, powers, &e, power)) return FACET_NO_MEMORY;
     }
@@ -96,16 +96,16 @@ static facet_status add_instance(light_set *set, double **powers, size_t index)
 
 static facet_status add_sphere(light_set *set, double **powers, size_t index)
 {
-    const sphere *sp    = &set->scene->spheres[index];
+    const sphere *sp = &set->scene->spheres[index];
     const material *mat = &set->scene->materials[sp->material];
     set->of_sphere[index] = NONE;
     const double L = (double)luminance(vector_of(mat->emission));
     if (mat->kind == SURFACE_UNLIT || !(L > 0)) return FACET_OK;
     set->of_sphere[index] = set->n_emitters;
-    const emitter e = {.kind            = EMITTER_SPHERE,
-                       .primitive       = (uint32_t)index,
+    const emitter e = {.kind = EMITTER_SPHERE,
+                       .primitive = (uint32_t)index,
                        .is_double_sided = mat->is_double_sided,
-                       .offset          = 3e-6f*fmaxf(max_abs3(vector_of(sp->center)), sp->radius)};
+                       .offset = 3e-6f*kmax(max_abs3(vector_of(sp->center)), sp->radius)};
     return add_emitter(set, powers, &e, 4*(double)PI*(double)PI*(double)sp->radius*(double)sp->radius*L);
 }
 
@@ -114,7 +114,7 @@ static facet_status add_punctual(light_set *set, double **powers, size_t index, 
 {
     const punctual_light *light = &set->scene->lights[index];
     const double I = (double)luminance(vector_of(light->intensity));
-    double extent  = 4*(double)PI;
+    double extent = 4*(double)PI;
     if (light->kind == LIGHT_SPOT) extent = 2*(double)PI*(1 - 0.5*(double)(light->cos_inner + light->cos_outer));
     if (light->kind == LIGHT_DIRECTIONAL) extent = (double)PI*scene_radius*scene_radius;
     const emitter e = {.kind = EMITTER_PUNCTUAL, .primitive = (uint32_t)index};
@@ -140,7 +140,7 @@ static facet_status collect(light_set *set, double **powers)
     set->sky_emitter = NONE;
     if (set->sky.mean > 0) {
         set->sky_emitter = set->n_emitters;
-        const emitter e  = {.kind = EMITTER_SKY};
+        const emitter e = {.kind = EMITTER_SKY};
         const double pi2 = (double)PI*(double)PI;
         if (add_emitter(set, powers, &e, 4*pi2*radius2*set->sky.mean)) return FACET_NO_MEMORY;
     }
@@ -151,11 +151,11 @@ facet_status light_set_create(const scene *s, light_set **result, facet_error *w
 {
     light_set *set = calloc(1, sizeof *set);
     if (!set) return facet_error_set(why, FACET_NO_MEMORY, "lights", "no memory for the light tables");
-    set->scene             = s;
+    set->scene = s;
     set->first_of_instance = malloc((s->n_instances + 1)*sizeof *set->first_of_instance);
-    set->of_sphere         = malloc((s->n_spheres + 1)*sizeof *set->of_sphere);
-    double *powers         = NULL;
-    facet_status status    = sky_create(&s->environment, &set->sky, why);
+    set->of_sphere = malloc((s->n_spheres + 1)*sizeof *set->of_sphere);
+    double *powers = NULL;
+    facet_status status = sky_create(&s->environment, &set->sky, why);
     if (status == FACET_OK) {
         status = set->first_of_instance && set->of_sphere ? collect(set, &powers) : FACET_NO_MEMORY;
         if (status == FACET_OK && set->n_emitters) status = alias_table_create(powers, set->n_emitters, &set->choice);
@@ -194,70 +194,70 @@ const sky *light_set_sky(const light_set *set)
 /* Density of a direction to a point of an area sampled uniformly: d^2/(|cos| area). */
 static float area_pdf(real3 to_point, real3 normal, float area)
 {
-    const float d2  = dot3(to_point, to_point);
-    const float cos = fabsf(dot3(to_point, normal))/sqrtf(fmaxf(d2, REAL_MIN));
+    const float d2 = dot3(to_point, to_point);
+    const float cos = kabs(dot3(to_point, normal))/ksqrt(kmax(d2, REAL_MIN));
     return cos > 0 && area > 0 ? d2/(cos*area) : 0;
 }
 
 /* A uniform point: [shirley96], the square folded onto the triangle by a square root. */
 static light_sample sample_triangle(const light_set *set, const emitter *e, real3 from, float u, float v)
 {
-    const float root = sqrtf(u);
+    const float root = ksqrt(u);
     const float b1 = 1 - root, b2 = v*root;
-    const real3 point    = add3(e->origin, add3(scale3(b1, e->edge1), scale3(b2, e->edge2)));
+    const real3 point = add3(e->origin, add3(scale3(b1, e->edge1), scale3(b2, e->edge2)));
     const real3 to_point = sub3(point, from);
-    const float facing   = -dot3(to_point, e->normal);
-    light_sample s       = {.pdf = 0};
+    const float facing = -dot3(to_point, e->normal);
+    light_sample s = {.pdf = 0};
     if (!(facing > 0 || e->is_double_sided)) return s;
-    s.pdf       = area_pdf(to_point, e->normal, e->area);
+    s.pdf = area_pdf(to_point, e->normal, e->area);
     s.direction = normalize3(to_point);
-    s.target    = madd3(point, facing > 0 ? e->offset : -e->offset, e->normal);
-    s.radiance  = surface_emission(set->scene, &set->scene->meshes[set->scene->instances[e->instance].mesh],
-                                   e->primitive, b1, b2);
+    s.target = madd3(point, facing > 0 ? e->offset : -e->offset, e->normal);
+    s.radiance = surface_emission(set->scene, &set->scene->meshes[set->scene->instances[e->instance].mesh],
+                                  e->primitive, b1, b2);
     return s;
 }
 
 /* 1 - cos of the half angle under which a sphere is seen, from sin^2; exact for far spheres. */
 static float one_minus_cos(float sin2)
 {
-    return sin2/(1 + sqrtf(fmaxf(1 - sin2, 0)));
+    return sin2/(1 + ksqrt(kmax(1 - sin2, 0)));
 }
 
 /* The density over the cone of directions to a sphere; 0 from inside. */
 static float cone_pdf(const sphere *sp, real3 from)
 {
     const real3 axis = sub3(vector_of(sp->center), from);
-    const float sin2 = sp->radius*sp->radius/fmaxf(dot3(axis, axis), REAL_MIN);
+    const float sin2 = sp->radius*sp->radius/kmax(dot3(axis, axis), REAL_MIN);
     return sin2 < 1 ? 1/(TWO_PI*one_minus_cos(sin2)) : 0;
 }
 
 /* From outside: a direction uniform in the cone around the sphere, [shirley96].  From inside: a uniform point. */
 static light_sample sample_sphere(const light_set *set, const emitter *e, real3 from, float u, float v)
 {
-    const sphere *sp    = &set->scene->spheres[e->primitive];
-    const real3 center  = vector_of(sp->center), axis = sub3(center, from);
+    const sphere *sp = &set->scene->spheres[e->primitive];
+    const real3 center = vector_of(sp->center), axis = sub3(center, from);
     const real2 azimuth = kcossin_turn(v);
-    const float pdf     = cone_pdf(sp, from);
-    light_sample s      = {.radiance = vector_of(set->scene->materials[sp->material].emission)};
+    const float pdf = cone_pdf(sp, from);
+    light_sample s = {.radiance = vector_of(set->scene->materials[sp->material].emission)};
     real3 outward;
     if (pdf > 0) {
-        const float d2 = dot3(axis, axis), d = sqrtf(d2);
-        const float drop     = u*one_minus_cos(sp->radius*sp->radius/d2); /* 1 - cos */
-        const float sin2     = drop*(2 - drop);
-        const frame cone     = frame_around(scale3(1/d, axis), splat3(0), 1);
-        const float sin      = sqrtf(sin2);
+        const float d2 = dot3(axis, axis), d = ksqrt(d2);
+        const float drop = u*one_minus_cos(sp->radius*sp->radius/d2); /* 1 - cos */
+        const float sin2 = drop*(2 - drop);
+        const frame cone = frame_around(scale3(1/d, axis), splat3(0), 1);
+        const float sin = ksqrt(sin2);
         s.direction = to_world(&cone, make3(sin*azimuth.x, sin*azimuth.y, 1 - drop));
         /* The nearer intersection: sin of the angle at the centre from the law of sines. */
-        const float along = d*(1 - drop) - sqrtf(fmaxf(sp->radius*sp->radius - d2*sin2, 0));
+        const float along = d*(1 - drop) - ksqrt(kmax(sp->radius*sp->radius - d2*sin2, 0));
         outward = normalize3(sub3(madd3(from, along, s.direction), center));
-        s.pdf   = pdf;
+        s.pdf = pdf;
     } else {
         if (!e->is_double_sided) return (light_sample){.pdf = 0};
-        const float z        = 1 - 2*u, sin = sqrtf(fmaxf(1 - z*z, 0));
-        outward              = make3(sin*azimuth.x, sin*azimuth.y, z);
+        const float z = 1 - 2*u, sin = ksqrt(kmax(1 - z*z, 0));
+        outward = make3(sin*azimuth.x, sin*azimuth.y, z);
         const real3 to_point = sub3(madd3(center, sp->radius, outward), from);
-        s.direction          = normalize3(to_point);
-        s.pdf                = area_pdf(to_point, outward, FOUR_PI*sp->radius*sp->radius);
+        s.direction = normalize3(to_point);
+        s.pdf = area_pdf(to_point, outward, FOUR_PI*sp->radius*sp->radius);
     }
     s.target = madd3(center, pdf > 0 ? sp->radius + e->offset : sp->radius - e->offset, outward);
     return s;
@@ -271,20 +271,20 @@ static light_sample sample_punctual(const light_set *set, const emitter *e, real
     light_sample s = {.is_delta = true, .pdf = 1, .radiance = vector_of(light->intensity)};
     if (light->kind == LIGHT_DIRECTIONAL) {
         s.is_infinite = true;
-        s.direction   = neg3(vector_of(light->direction));
+        s.direction = neg3(vector_of(light->direction));
         return s;
     }
-    s.target             = vector_of(light->position);
+    s.target = vector_of(light->position);
     const real3 to_light = sub3(s.target, from);
-    const float d2       = dot3(to_light, to_light);
+    const float d2 = dot3(to_light, to_light);
     if (!(d2 > 0)) return (light_sample){.pdf = 0};
-    s.direction   = normalize3(to_light);
+    s.direction = normalize3(to_light);
     float falloff = 1/d2;
     if (light->kind == LIGHT_SPOT) {
-        const float cos   = -dot3(s.direction, vector_of(light->direction));
-        const float width = fmaxf(light->cos_inner - light->cos_outer, 1e-4f);
-        const float ramp  = fminf(fmaxf((cos - light->cos_outer)/width, 0), 1);
-        falloff          *= ramp*ramp;
+        const float cos = -dot3(s.direction, vector_of(light->direction));
+        const float width = kmax(light->cos_inner - light->cos_outer, 1e-4f);
+        const float ramp = kmin(kmax((cos - light->cos_outer)/width, 0), 1);
+        falloff *= ramp*ramp;
     }
     s.radiance = scale3(falloff, s.radiance);
     return s;
@@ -296,7 +296,7 @@ light_sample light_set_sample(const light_set *set, real3 from, const uint32_t u
     if (set->n_emitters == 0) return s;
     uint32_t rest;
     const uint32_t index = alias_table_draw(&set->choice, u[0], &rest);
-    const emitter *e     = &set->emitters[index];
+    const emitter *e = &set->emitters[index];
     const float v = fraction(u[1]), w = fraction(u[2]);
     switch (e->kind) {
     case EMITTER_TRIANGLE: s = sample_triangle(set, e, from, v, w); break;
@@ -305,8 +305,8 @@ light_sample light_set_sample(const light_set *set, real3 from, const uint32_t u
     case EMITTER_SKY:
         /* The texel is chosen by what choosing the emitter left of u[0], as long as that is enough. */
         if (set->n_emitters > 256) rest = hash_pair(u[0], u[1] ^ u[2]);
-        s.direction   = sky_sample(&set->sky, rest, v, w, &s.pdf);
-        s.radiance    = sky_radiance(&set->sky, s.direction);
+        s.direction = sky_sample(&set->sky, rest, v, w, &s.pdf);
+        s.radiance = sky_radiance(&set->sky, s.direction);
         s.is_infinite = true;
         break;
     }
@@ -320,13 +320,15 @@ float light_set_pdf_of_hit(const light_set *set, real3 from, const hit *h, const
         const size_t first = set->first_of_instance[h->instance];
         if (first == NONE) return 0;
         const emitter *e = &set->emitters[first + h->primitive];
-        return set->choice.cells[first + h->primitive].probability*area_pdf(sub3(at->position, from), e->normal, e->area);
+        return set->choice.cells[first + h->primitive].probability*
+               area_pdf(sub3(at->position, from), e->normal, e->area);
     }
     const size_t index = set->of_sphere[h->primitive];
     if (index == NONE) return 0;
     const sphere *sp = &set->scene->spheres[h->primitive];
     const float cone = cone_pdf(sp, from);
-    const float pdf  = cone > 0 ? cone : area_pdf(sub3(at->position, from), at->normal, FOUR_PI*sp->radius*sp->radius);
+    const float pdf = cone > 0 ? cone
+                               : area_pdf(sub3(at->position, from), at->normal, FOUR_PI*sp->radius*sp->radius);
     return set->choice.cells[index].probability*pdf;
 }
 

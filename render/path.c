@@ -15,18 +15,18 @@ enum { GROUP_CAMERA, GROUP_LIGHT, GROUP_SCATTER, GROUP_CHANCE, GROUPS_PER_EVENT 
 typedef enum path_origin { FROM_CAMERA, FROM_DELTA, FROM_LOBE } path_origin;
 
 typedef struct path {
-    uint32_t x, y;          /* pixel of the crop */
+    uint32_t x, y; /* pixel of the crop */
     sample_stream stream;
-    uint32_t n_events;      /* scattering events so far */
-    path_origin origin;     /* what sent the current ray */
+    uint32_t n_events;  /* scattering events so far */
+    path_origin origin; /* what sent the current ray */
     ray ray;
     hit hit;
     bool has_hit;
     real3 throughput;
-    float eta_scale;        /* radiance lost to refraction and got back on leaving: not a reason to end a path */
-    real3 radiance;         /* gathered so far */
-    real3 previous;         /* where the current ray was scattered */
-    float pdf_scatter;      /* of the current ray's direction [1/sr] */
+    float eta_scale;   /* radiance lost to refraction and got back on leaving: not a reason to end a path */
+    real3 radiance;    /* gathered so far */
+    real3 previous;    /* where the current ray was scattered */
+    float pdf_scatter; /* of the current ray's direction [1/sr] */
     /* A shadow ray that waits for connect, and what it brings if nothing is in its way. */
     bool has_shadow;
     ray shadow_ray;
@@ -51,23 +51,23 @@ void path_batch_destroy(path_batch *batch)
 
 static void store_ray(ray *r, real3 origin, real3 direction, float t_max, uint32_t seed)
 {
-    *r = (ray){.origin    = {origin.x, origin.y, origin.z},
+    *r = (ray){.origin = {origin.x, origin.y, origin.z},
                .direction = {direction.x, direction.y, direction.z},
-               .t_max     = t_max,
-               .seed      = seed};
+               .t_max = t_max,
+               .seed = seed};
 }
 
 /* The camera's ray through a point of the picture; x and y in pixels of the whole picture. */
 static void camera_ray(const path_context *c, float x, float y, uint32_t seed, ray *r)
 {
-    const camera *cam  = c->camera;
+    const camera *cam = c->camera;
     const float w = (float)c->settings->width, h = (float)c->settings->height;
     const float right = (2*x/w - 1)*w/h, up = 1 - 2*y/h;
     if (cam->is_orthographic) {
         const real3 origin = map_point(cam->to_world, make3(right*cam->ymag, up*cam->ymag, 0));
         store_ray(r, origin, map_vector(cam->to_world, make3(0, 0, -1)), INFINITY, seed);
     } else {
-        const float tan   = tanf(0.5f*cam->yfov);
+        const float tan = tanf(0.5f*cam->yfov);
         const real3 local = normalize3(make3(right*tan, up*tan, -1));
         store_ray(r, map_column(cam->to_world, 3), map_vector(cam->to_world, local), INFINITY, seed);
     }
@@ -81,12 +81,12 @@ static void generate(path_batch *batch, const path_context *c, tile where, uint3
         for (uint32_t x = where.x0; x < where.x1; x++) {
             path *p = &batch->paths[batch->n_paths];
             const uint32_t px = x + (uint32_t)c->settings->crop_x, py = y + (uint32_t)c->settings->crop_y;
-            *p = (path){.x          = x,
-                        .y          = y,
-                        .stream     = sampler_start(&c->sampler, px, py, sample),
-                        .origin     = FROM_CAMERA,
+            *p = (path){.x = x,
+                        .y = y,
+                        .stream = sampler_start(&c->sampler, px, py, sample),
+                        .origin = FROM_CAMERA,
                         .throughput = {1, 1, 1},
-                        .eta_scale  = 1};
+                        .eta_scale = 1};
             const sample_point u = sampler_point(&c->sampler, p->stream, GROUP_CAMERA);
             camera_ray(c, (float)px + fraction(u.u[0]), (float)py + fraction(u.u[1]), u.u[2], &p->ray);
             batch->active[batch->n_paths] = (uint16_t)batch->n_paths;
@@ -99,27 +99,28 @@ static void generate(path_batch *batch, const path_context *c, tile where, uint3
 static bool is_culled(const path_context *c, const path *p)
 {
     if (p->hit.instance >= c->scene->n_instances) return false;
-    const instance *in  = &c->scene->instances[p->hit.instance];
-    const mesh *m       = &c->scene->meshes[in->mesh];
+    const instance *in = &c->scene->instances[p->hit.instance];
+    const mesh *m = &c->scene->meshes[in->mesh];
     const material *mat = &c->scene->materials[m->material];
     if (mat->is_double_sided || mat->transmission > 0 || mat->kind == SURFACE_BSDF) return false;
     const uint32_t *i = m->triangles[p->hit.primitive];
-    const real3 p0    = vector_of(m->positions[i[0]]);
-    const real3 front = cross3(sub3(vector_of(m->positions[i[1]]), p0), sub3(vector_of(m->positions[i[2]]), p0));
-    const float sign  = map_determinant(in->to_world) < 0 ? -1.0f : 1.0f;
-    return dot3(map_normal(in->to_world, sign, front), vector_of(p->ray.direction)) > 0;
+    const real3 p0 = vector_of(m->positions[i[0]]);
+    const real3 e1 = map_vector(in->to_world, sub3(vector_of(m->positions[i[1]]), p0));
+    const real3 e2 = map_vector(in->to_world, sub3(vector_of(m->positions[i[2]]), p0));
+    const float sign = map_determinant(in->to_world) < 0 ? -1.0f : 1.0f;
+    return sign*dot3(normal_of_edges(e1, e2), vector_of(p->ray.direction)) > 0;
 }
 
 /* Stage: the nearest surface of every active path's ray. */
 static void trace(path_batch *batch, const path_context *c, path_counts *counts)
 {
     for (uint32_t i = 0; i < batch->n_active; i++) {
-        path *p    = &batch->paths[batch->active[i]];
+        path *p = &batch->paths[batch->active[i]];
         p->has_hit = tracer_intersect(c->tracer, &p->ray, &p->hit);
         counts->n_rays++;
         while (p->origin == FROM_CAMERA && p->has_hit && is_culled(c, p)) {
             p->ray.t_min = nextafterf(p->hit.t, INFINITY);
-            p->has_hit   = tracer_intersect(c->tracer, &p->ray, &p->hit);
+            p->has_hit = tracer_intersect(c->tracer, &p->ray, &p->hit);
             counts->n_rays++;
         }
     }
@@ -152,7 +153,7 @@ static void gather(path *p, real3 radiance, float weight)
 static void gather_sky(const path_context *c, path *p)
 {
     const real3 direction = normalize3(vector_of(p->ray.direction));
-    const real3 radiance  = sky_radiance(light_set_sky(c->lights), direction);
+    const real3 radiance = sky_radiance(light_set_sky(c->lights), direction);
     if (!(max_of3(radiance) > 0)) return;
     gather(p, radiance, implicit_weight(c, p, p->origin == FROM_LOBE ? light_set_pdf_of_sky(c->lights, direction) : 0));
 }
@@ -191,10 +192,8 @@ static void prepare_connection(const path_context *c, path *p, const surface *at
         weight = power_heuristic(s.pdf, facet_bsdf_pdf(&at->bsdf, wi, wo));
     p->shadow_radiance = mul3(p->throughput, mul3(vector_of(f), scale3(weight/s.pdf, s.radiance)));
     const real3 origin = surface_leave(at, s.direction);
-    if (s.is_infinite)
-        store_ray(&p->shadow_ray, origin, s.direction, INFINITY, u.u[0] ^ u.u[1]);
-    else
-        store_ray(&p->shadow_ray, origin, sub3(s.target, origin), 1, u.u[0] ^ u.u[1]);
+    if (s.is_infinite) store_ray(&p->shadow_ray, origin, s.direction, INFINITY, u.u[0] ^ u.u[1]);
+    else store_ray(&p->shadow_ray, origin, sub3(s.target, origin), 1, u.u[0] ^ u.u[1]);
     p->has_shadow = true;
 }
 
@@ -202,18 +201,18 @@ static void prepare_connection(const path_context *c, path *p, const surface *at
 static bool scatter(const path_context *c, path *p, const surface *at, real3 wo_local, uint32_t group)
 {
     const sample_point u = sampler_point(&c->sampler, p->stream, group + GROUP_SCATTER);
-    const float v[3]     = {fraction(u.u[0]), fraction(u.u[1]), fraction(u.u[2])};
-    const float wo[3]    = {wo_local.x, wo_local.y, wo_local.z};
+    const float v[3] = {fraction(u.u[0]), fraction(u.u[1]), fraction(u.u[2])};
+    const float wo[3] = {wo_local.x, wo_local.y, wo_local.z};
     const facet_sample s = facet_bsdf_sample(&at->bsdf, wo, v);
     if (!(s.pdf > 0)) return false;
     const real3 wi = normalize3(to_world(&at->shading, vector_of(s.wi)));
     if ((s.lobe & FACET_REFLECTION) && !is_same_side(at, wi, to_world(&at->shading, wo_local))) return false;
     p->throughput = mul3(p->throughput, vector_of(s.weight));
     if (!(max_of3(p->throughput) > 0)) return false;
-    if ((s.lobe & FACET_TRANSMISSION) && (s.wi[2] > 0) != (wo[2] > 0)) p->eta_scale /= fmaxf(s.weight[1], 1e-6f);
-    p->origin      = s.lobe & FACET_DELTA ? FROM_DELTA : FROM_LOBE;
+    if ((s.lobe & FACET_TRANSMISSION) && (s.wi[2] > 0) != (wo[2] > 0)) p->eta_scale /= kmax(s.weight[1], 1e-6f);
+    p->origin = s.lobe & FACET_DELTA ? FROM_DELTA : FROM_LOBE;
     p->pdf_scatter = s.pdf;
-    p->previous    = at->position;
+    p->previous = at->position;
     store_ray(&p->ray, surface_leave(at, wi), wi, INFINITY, u.u[0] ^ u.u[2]);
     return true;
 }
@@ -222,7 +221,7 @@ static bool scatter(const path_context *c, path *p, const surface *at, real3 wo_
 static bool survives(path *p, uint32_t chance)
 {
     if (p->n_events < ROULETTE_START) return true;
-    const float q = fminf(ROULETTE_MOST, max_of3(p->throughput)*p->eta_scale);
+    const float q = kmin(ROULETTE_MOST, max_of3(p->throughput)*p->eta_scale);
     if (fraction(chance) >= q) return false;
     p->throughput = scale3(1/q, p->throughput);
     return true;
@@ -237,9 +236,11 @@ static bool shade_path(const path_context *c, path *p)
         return false;
     }
     const uint32_t group = 1 + p->n_events*GROUPS_PER_EVENT;
-    const sample_point u = sampler_point(&c->sampler, p->stream, group + GROUP_CHANCE);
-    const real3 wo       = neg3(normalize3(vector_of(p->ray.direction)));
-    const surface at     = surface_at(c->scene, &p->ray, &p->hit, wo, fraction(u.u[0]));
+    const bool needs_chance = c->has_mixed_surfaces || p->n_events + 1 >= ROULETTE_START;
+    const sample_point u = needs_chance ? sampler_point(&c->sampler, p->stream, group + GROUP_CHANCE)
+                                        : (sample_point){{0}};
+    const real3 wo = neg3(normalize3(vector_of(p->ray.direction)));
+    const surface at = surface_at(c->scene, &p->ray, &p->hit, wo, fraction(u.u[0]));
     gather_emission(c, p, &at);
     if (!at.scatters || p->n_events >= c->settings->depth) return false;
     const real3 wo_local = to_local(&at.shading, wo);

@@ -25,6 +25,7 @@ typedef struct path_context {
     const tracer *tracer;
     const light_set *lights;
     sampler sampler;
+    bool has_mixed_surfaces;         /* some material is part smooth interface, part opaque */
     const render_settings *settings; /* crop filled in */
 } path_context;
 

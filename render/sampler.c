@@ -56,7 +56,7 @@ sample_stream sampler_start(const sampler *s, uint32_t x, uint32_t y, uint32_t i
 sample_point sampler_point(const sampler *s, sample_stream stream, uint32_t group)
 {
     const uint32_t seed = hash_pair(stream.pixel, group);
-    sample_point p      = {{0, 0, 0}};
+    sample_point p = {{0, 0, 0}};
     if (s->kind == SAMPLER_RANDOM) {
         const uint32_t base = hash_pair(seed, stream.index);
         for (uint32_t d = 0; d < 3; d++) p.u[d] = hash_pair(base, d);

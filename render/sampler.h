@@ -50,8 +50,8 @@ static inline float fraction(uint32_t u)
 static inline uint32_t hash_pair(uint32_t a, uint32_t b)
 {
     uint64_t x = ((uint64_t)a << 32 | b) + 0x9e3779b97f4a7c15u; /* the finaliser of splitmix64 */
-    x          = (x ^ x >> 30)*0xbf58476d1ce4e5b9u;
-    x          = (x ^ x >> 27)*0x94d049bb133111ebu;
+    x = (x ^ x >> 30)*0xbf58476d1ce4e5b9u;
+    x = (x ^ x >> 27)*0x94d049bb133111ebu;
     return (uint32_t)(x >> 32) ^ (uint32_t)x;
 }
 

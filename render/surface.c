@@ -27,8 +27,9 @@ static weights weights_at(const mesh *m, uint32_t triangle, float u, float v)
 
 static real3 mix_vertices3(const weights *at, const float (*values)[3])
 {
-    return add3(add3(scale3(at->w[0], vector_of(values[at->vertex[0]])), scale3(at->w[1], vector_of(values[at->vertex[1]]))),
-                scale3(at->w[2], vector_of(values[at->vertex[2]])));
+    return add3(
+        add3(scale3(at->w[0], vector_of(values[at->vertex[0]])), scale3(at->w[1], vector_of(values[at->vertex[1]]))),
+        scale3(at->w[2], vector_of(values[at->vertex[2]])));
 }
 
 static float mix_component(const weights *at, const float *values, size_t stride)
@@ -40,7 +41,7 @@ static float mix_component(const weights *at, const float *values, size_t stride
 /* The texture's value where it is used, at a point of the triangle. */
 static texel look_up(const scene *s, const mesh *m, const texture_use *use, const weights *at)
 {
-    const float (*uv)[2] = (const float (*)[2])m->uv[use->uv_set];
+    const float(*uv)[2] = (const float(*)[2])m->uv[use->uv_set];
     float u = 0, v = 0;
     if (uv) {
         const float u0 = mix_component(at, &uv[0][0], 2), v0 = mix_component(at, &uv[0][1], 2);
@@ -59,17 +60,17 @@ static texel base_color_at(const scene *s, const mesh *m, const material *mat, c
     }
     if (m->colors)
         for (int k = 0; k < 4; k++) base.c[k] *= mix_component(at, &m->colors[0][k], 4);
-    for (int k = 0; k < 4; k++) base.c[k] = fminf(fmaxf(base.c[k], 0), 1);
+    for (int k = 0; k < 4; k++) base.c[k] = kmin(kmax(base.c[k], 0), 1);
     return base;
 }
 
 float surface_opacity(const void *user, uint32_t mesh_index, uint32_t triangle, float u, float v)
 {
-    const scene *s      = user;
-    const mesh *m       = &s->meshes[mesh_index];
+    const scene *s = user;
+    const mesh *m = &s->meshes[mesh_index];
     const material *mat = &s->materials[m->material];
-    const weights at    = weights_at(m, triangle, u, v);
-    const float alpha   = base_color_at(s, m, mat, &at).c[3];
+    const weights at = weights_at(m, triangle, u, v);
+    const float alpha = base_color_at(s, m, mat, &at).c[3];
     if (mat->alpha == ALPHA_MASK) return alpha >= mat->alpha_cutoff ? 1.0f : 0.0f;
     return alpha;
 }
@@ -79,7 +80,7 @@ static real3 emission_at(const scene *s, const mesh *m, const material *mat, con
     real3 emission = vector_of(mat->emission);
     if (mat->emissive_texture.texture != NONE && max_of3(emission) > 0) {
         const texel t = look_up(s, m, &mat->emissive_texture, at);
-        emission      = mul3(emission, make3(t.c[0], t.c[1], t.c[2]));
+        emission = mul3(emission, make3(t.c[0], t.c[1], t.c[2]));
     }
     return emission;
 }
@@ -94,33 +95,34 @@ real3 surface_emission(const scene *s, const mesh *m, uint32_t triangle, float u
  * coordinates; 0 where the coordinates are degenerate. */
 static real3 uv_tangent(const mesh *m, const weights *at, unsigned uv_set, real3 normal, float *handedness)
 {
-    const float (*uv)[2] = (const float (*)[2])m->uv[uv_set];
-    *handedness          = 1;
+    const float(*uv)[2] = (const float(*)[2])m->uv[uv_set];
+    *handedness = 1;
     if (!uv) return splat3(0);
     const uint32_t *i = at->vertex;
-    const real3 p0    = vector_of(m->positions[i[0]]);
+    const real3 p0 = vector_of(m->positions[i[0]]);
     const real3 e1 = sub3(vector_of(m->positions[i[1]]), p0), e2 = sub3(vector_of(m->positions[i[2]]), p0);
     const float du1 = uv[i[1]][0] - uv[i[0]][0], dv1 = uv[i[1]][1] - uv[i[0]][1];
     const float du2 = uv[i[2]][0] - uv[i[0]][0], dv2 = uv[i[2]][1] - uv[i[0]][1];
     const float det = du1*dv2 - du2*dv1;
     if (det == 0) return splat3(0);
-    const float sign  = det > 0 ? 1.0f : -1.0f;
+    const float sign = det > 0 ? 1.0f : -1.0f;
     const real3 along = scale3(sign, sub3(scale3(dv2, e1), scale3(dv1, e2)));
     /* v runs downwards in glTF's textures, upwards in normal maps: the bitangent is -dP/dv. */
     const real3 down = scale3(sign, sub3(scale3(du1, e2), scale3(du2, e1)));
-    *handedness      = dot3(cross3(normal, along), down) > 0 ? -1.0f : 1.0f;
+    *handedness = dot3(cross3(normal, along), down) > 0 ? -1.0f : 1.0f;
     return along;
 }
 
 /* Fills material, bsdf and emission from texture and vertex values. */
-static void set_material(surface *at, const scene *s, const mesh *m, const material *mat, const weights *w, float choice)
+static void set_material(surface *at, const scene *s, const mesh *m, const material *mat, const weights *w,
+                         float choice)
 {
     at->material = mat;
     at->scatters = mat->kind != SURFACE_UNLIT;
     const bool emits = at->is_front || mat->is_double_sided;
     if (emits) at->emission = m ? emission_at(s, m, mat, w) : vector_of(mat->emission);
     if (mat->kind == SURFACE_BSDF) {
-        at->bsdf      = mat->bsdf;
+        at->bsdf = mat->bsdf;
         at->transmits = facet_bsdf_lobes(&mat->bsdf) & FACET_TRANSMISSION;
         return;
     }
@@ -133,8 +135,8 @@ static void set_material(surface *at, const scene *s, const mesh *m, const mater
     float metallic = mat->metallic, roughness = mat->roughness;
     if (m && mat->metallic_roughness_texture.texture != NONE) {
         const texel t = look_up(s, m, &mat->metallic_roughness_texture, w);
-        roughness    *= t.c[1];
-        metallic     *= t.c[2];
+        roughness *= t.c[1];
+        metallic *= t.c[2];
     }
     at->transmits = choice < mat->transmission*(1 - metallic);
     if (at->transmits) {
@@ -157,7 +159,7 @@ static real3 face_viewer(real3 n, real3 wo)
 static void set_frame(surface *at, real3 n, real3 tangent, float handedness, real3 wo)
 {
     const bool flips = !at->is_front && !at->transmits;
-    real3 shading    = flips ? neg3(n) : n;
+    real3 shading = flips ? neg3(n) : n;
     if (!at->transmits) shading = face_viewer(shading, wo);
     at->shading = frame_around(shading, tangent, handedness);
 }
@@ -165,42 +167,44 @@ static void set_frame(surface *at, real3 n, real3 tangent, float handedness, rea
 /* The normal of the normal map in the frame (t, b, n) of the vertices.  [gltf, normalTexture]. */
 static real3 mapped_normal(const scene *s, const mesh *m, const material *mat, const weights *w, frame vertices)
 {
-    const texel t     = look_up(s, m, &mat->normal_texture, w);
-    const real3 local = make3((2*t.c[0] - 1)*mat->normal_scale, (2*t.c[1] - 1)*mat->normal_scale, 2*t.c[2] - 1);
-    const real3 n     = to_world(&vertices, local);
+    const texel t = look_up(s, m, &mat->normal_texture, w);
+    const real3 local = make3((2*t.c[0] - 1)*mat->normal_scale, (2*t.c[1] - 1)*mat->normal_scale,
+                              2*t.c[2] - 1);
+    const real3 n = to_world(&vertices, local);
     return dot3(n, n) > 0 ? normalize3(n) : vertices.n;
 }
 
 static surface triangle_surface(const scene *s, const hit *h, real3 wo, float choice)
 {
-    const instance *in  = &s->instances[h->instance];
-    const mesh *m       = &s->meshes[in->mesh];
+    const instance *in = &s->instances[h->instance];
+    const mesh *m = &s->meshes[in->mesh];
     const material *mat = &s->materials[m->material];
-    const weights w     = weights_at(m, h->primitive, h->u, h->v);
-    const float sign    = map_determinant(in->to_world) < 0 ? -1.0f : 1.0f;
+    const weights w = weights_at(m, h->primitive, h->u, h->v);
+    const float sign = map_determinant(in->to_world) < 0 ? -1.0f : 1.0f;
     const real3 p0 = vector_of(m->positions[w.vertex[0]]), p1 = vector_of(m->positions[w.vertex[1]]),
                 p2 = vector_of(m->positions[w.vertex[2]]);
-    surface at = {.position = map_point(in->to_world, mix_vertices3(&w, (const float (*)[3])m->positions))};
-    at.normal  = normalize3(map_normal(in->to_world, sign, cross3(sub3(p1, p0), sub3(p2, p0))));
+    surface at = {.position = map_point(in->to_world, mix_vertices3(&w, (const float(*)[3])m->positions))};
+    at.normal = scale3(sign,
+                       normal_of_edges(map_vector(in->to_world, sub3(p1, p0)), map_vector(in->to_world, sub3(p2, p0))));
     at.is_front = dot3(at.normal, wo) > 0;
-    const float column = fmaxf(max_abs3(map_column(in->to_world, 0)),
-                               fmaxf(max_abs3(map_column(in->to_world, 1)), max_abs3(map_column(in->to_world, 2))));
-    const float local  = fmaxf(max_abs3(p0), fmaxf(max_abs3(p1), max_abs3(p2)));
-    at.offset = OFFSET_ULPS*fmaxf(max_abs3(at.position), fmaxf(column*local, max_abs3(map_column(in->to_world, 3))));
+    const float column = kmax(max_abs3(map_column(in->to_world, 0)),
+                              kmax(max_abs3(map_column(in->to_world, 1)), max_abs3(map_column(in->to_world, 2))));
+    const float local = kmax(max_abs3(p0), kmax(max_abs3(p1), max_abs3(p2)));
+    at.offset = OFFSET_ULPS*kmax(max_abs3(at.position), kmax(column*local, max_abs3(map_column(in->to_world, 3))));
     set_material(&at, s, m, mat, &w, choice);
 
     real3 n = at.normal;
     if (m->normals) {
-        const real3 mixed = map_normal(in->to_world, sign, mix_vertices3(&w, (const float (*)[3])m->normals));
+        const real3 mixed = map_normal(in->to_world, sign, mix_vertices3(&w, (const float(*)[3])m->normals));
         if (dot3(mixed, mixed) > 0) n = normalize3(mixed);
     }
     real3 tangent;
     float handedness = 1;
     if (m->tangents) {
-        tangent    = make3(mix_component(&w, &m->tangents[0][0], 4), mix_component(&w, &m->tangents[0][1], 4),
-                           mix_component(&w, &m->tangents[0][2], 4));
+        tangent = make3(mix_component(&w, &m->tangents[0][0], 4), mix_component(&w, &m->tangents[0][1], 4),
+                        mix_component(&w, &m->tangents[0][2], 4));
         handedness = sign*m->tangents[w.vertex[0]][3];
-        tangent    = map_vector(in->to_world, tangent);
+        tangent = map_vector(in->to_world, tangent);
     } else {
         const unsigned uv_set = mat->normal_texture.texture != NONE ? mat->normal_texture.uv_set : 0;
         tangent = map_vector(in->to_world, uv_tangent(m, &w, uv_set, cross3(sub3(p1, p0), sub3(p2, p0)), &handedness));
@@ -214,12 +218,12 @@ static surface triangle_surface(const scene *s, const hit *h, real3 wo, float ch
 
 static surface sphere_surface(const scene *s, const hit *h, real3 wo, real3 near, float choice)
 {
-    const sphere *sp    = &s->spheres[h->primitive];
-    const real3 center  = vector_of(sp->center);
+    const sphere *sp = &s->spheres[h->primitive];
+    const real3 center = vector_of(sp->center);
     const real3 outward = normalize3(sub3(near, center));
-    surface at          = {.position = madd3(center, sp->radius, outward), .normal = outward};
-    at.is_front         = dot3(outward, wo) > 0;
-    at.offset           = OFFSET_ULPS*fmaxf(max_abs3(at.position), sp->radius);
+    surface at = {.position = madd3(center, sp->radius, outward), .normal = outward};
+    at.is_front = dot3(outward, wo) > 0;
+    at.offset = OFFSET_ULPS*kmax(max_abs3(at.position), sp->radius);
     set_material(&at, s, NULL, &s->materials[sp->material], NULL, choice);
     /* Tangents run around the y axis. */
     set_frame(&at, outward, make3(outward.z, 0, -outward.x), 1, wo);

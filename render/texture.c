@@ -18,7 +18,7 @@ static size_t wrap_index(int64_t i, size_t n, texture_wrap wrap)
     const int64_t size = (int64_t)n;
     if (wrap == WRAP_CLAMP) return (size_t)(i < 0 ? 0 : i >= size ? size - 1 : i);
     const int64_t period = wrap == WRAP_MIRROR ? 2*size : size;
-    int64_t k            = i%period;
+    int64_t k = i%period;
     if (k < 0) k += period;
     return (size_t)(k < size ? k : period - 1 - k);
 }
@@ -41,10 +41,10 @@ static float channel(const image *picture, size_t index, bool is_srgb)
 
 static texel fetch(const image *picture, size_t x, size_t y, bool is_srgb)
 {
-    const size_t n    = picture->n_channels;
+    const size_t n = picture->n_channels;
     const size_t base = (y*picture->width + x)*n;
-    texel t           = {{0, 0, 0, 1}};
-    t.c[0]            = channel(picture, base, is_srgb);
+    texel t = {{0, 0, 0, 1}};
+    t.c[0] = channel(picture, base, is_srgb);
     for (size_t k = 1; k < 3; k++) t.c[k] = n >= 3 ? channel(picture, base + k, is_srgb) : t.c[0];
     if (n == 2 || n == 4) t.c[3] = channel(picture, base + n - 1, false);
     return t;
@@ -53,7 +53,7 @@ static texel fetch(const image *picture, size_t x, size_t y, bool is_srgb)
 /* Coordinates beyond this have no fractional texels left in float; they are taken as the border. */
 static float bounded(float coordinate)
 {
-    return fminf(fmaxf(coordinate, -1e6f), 1e6f);
+    return kmin(kmax(coordinate, -1e6f), 1e6f);
 }
 
 texel texture_lookup(const scene *s, const texture *t, float u, float v)

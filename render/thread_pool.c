@@ -88,9 +88,9 @@ uint32_t thread_pool_size(const thread_pool *pool)
 void thread_pool_start(thread_pool *pool, thread_pool_job *job, void *user, uint32_t n_pieces)
 {
     pthread_mutex_lock(&pool->lock);
-    pool->job      = job;
-    pool->user     = user;
-    pool->next     = 0;
+    pool->job = job;
+    pool->user = user;
+    pool->next = 0;
     pool->n_pieces = n_pieces;
     pthread_cond_broadcast(&pool->work);
     pthread_mutex_unlock(&pool->lock);
