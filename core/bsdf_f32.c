@@ -7,8 +7,8 @@
 #define TERMS facet_terms
 #include "bsdf_text.h"
 
-facet_bsdf facet_bsdf_metallic_roughness(const float base_color[3], float metallic, float roughness, float dielectric_F0,
-                                         float specular, const float specular_color[3])
+facet_bsdf facet_bsdf_metallic_roughness(const float base_color[3], float metallic, float roughness,
+                                         float dielectric_F0, float specular, const float specular_color[3])
 {
     prepared p = {.model = MODEL_metallic_roughness};
     p.of.metallic_roughness = metallic_roughness_of(load3(base_color), metallic, roughness, dielectric_F0, specular,

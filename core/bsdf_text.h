@@ -78,22 +78,20 @@ real NAME(pdf)(const STORAGE *bsdf, const real wi[3], const real wo[3])
 SAMPLE NAME(sample)(const STORAGE *bsdf, const real wo[3], const real u[3])
 {
     const prepared *p = content(bsdf);
-    bsdf_sample s     = {.pdf = 0};
+    bsdf_sample s = {.pdf = 0};
     switch (p->model) {
 #define SAMPLE_ROW(name, summary, source)                                                                              \
     case MODEL_##name: s = name##_sample(p->of.name, load3(wo), load3(u)); break;
         FACET_MODELS(SAMPLE_ROW)
     }
-    return (SAMPLE){.wi     = {s.wi.x, s.wi.y, s.wi.z},
-                    .pdf    = s.pdf,
-                    .weight = {s.weight.x, s.weight.y, s.weight.z},
-                    .lobe   = s.lobe};
+    return (SAMPLE){
+        .wi = {s.wi.x, s.wi.y, s.wi.z}, .pdf = s.pdf, .weight = {s.weight.x, s.weight.y, s.weight.z}, .lobe = s.lobe};
 }
 
 TERMS NAME(terms)(const STORAGE *bsdf, const real m[3])
 {
     const prepared *p = content(bsdf);
-    real3 t           = splat3(0);
+    real3 t = splat3(0);
     switch (p->model) {
 #define TERMS_ROW(name, summary, source)                                                                               \
     case MODEL_##name: t = name##_terms(p->of.name, load3(m)); break;

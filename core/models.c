@@ -76,7 +76,7 @@ static void list_names(char *text, size_t size, const facet_model_info *model)
 {
     size_t used = 0;
     const size_t n = model ? model->n_parameters : facet_model_count();
-    text[0]        = 0;
+    text[0] = 0;
     for (size_t i = 0; i < n && used < size; i++) {
         const char *name = model ? model->parameters[i].name : models[i].name;
         used += (size_t)snprintf(text + used, size - used, "%s%s", i ? ", " : "", name);
@@ -131,14 +131,15 @@ facet_status facet_material_set(facet_material *material, const char *name, cons
         material->model >= facet_model_count())
         return facet_error_set(why, FACET_BAD_ARGUMENT, "", "the material was not filled by this library");
     const facet_model_info *model = &models[material->model];
-    const int i                   = facet_material_index(material, name);
+    const int i = facet_material_index(material, name);
     if (i < 0) {
         char names[200];
         list_names(names, sizeof names, model);
-        return facet_error_set(why, FACET_UNKNOWN_NAME, name, "%s has no such parameter; it has %s", model->name, names);
+        return facet_error_set(why, FACET_UNKNOWN_NAME, name, "%s has no such parameter; it has %s", model->name,
+                               names);
     }
     const facet_parameter *parameter = &model->parameters[i];
-    const size_t expected            = value_count(parameter);
+    const size_t expected = value_count(parameter);
     if (n_values != expected && n_values != 1)
         return facet_error_set(why, FACET_BAD_SYNTAX, name, "%zu values; give %s", n_values,
                                expected == 3 ? "r,g,b or one number for a grey" : "one number");
@@ -170,10 +171,10 @@ facet_status facet_material_check(const facet_material *material, facet_error *w
 static int choice_index(const char *choices, const char *text)
 {
     const size_t length = strlen(text);
-    int index           = 0;
+    int index = 0;
     for (const char *c = choices;; index++) {
         const char *end = strchr(c, '|');
-        const size_t n  = end ? (size_t)(end - c) : strlen(c);
+        const size_t n = end ? (size_t)(end - c) : strlen(c);
         if (n == length && memcmp(c, text, n) == 0) return index;
         if (!end) return -1;
         c = end + 1;
@@ -207,7 +208,7 @@ static size_t parse_numbers(const char *text, double values[3])
         const size_t length = number_length(text);
         if (!length) return 0;
         values[n] = strtod(text, NULL);
-        text     += length;
+        text += length;
         if (*text == 0) return n + 1;
         if (*text++ != ',') return 0;
     }
@@ -218,27 +219,25 @@ static size_t parse_numbers(const char *text, double values[3])
 static facet_status set_word(facet_material *material, char *word, facet_error *why)
 {
     char *equals = strchr(word, '=');
-    if (!equals || equals == word)
-        return facet_error_set(why, FACET_BAD_SYNTAX, word, "not of the form key=value");
-    *equals           = 0;
+    if (!equals || equals == word) return facet_error_set(why, FACET_BAD_SYNTAX, word, "not of the form key=value");
+    *equals = 0;
     const char *value = equals + 1;
-    const int i       = facet_material_index(material, word);
+    const int i = facet_material_index(material, word);
     if (i >= 0 && (material->given >> i & 1))
         return facet_error_set(why, FACET_BAD_SYNTAX, word, "given twice; give it once");
     double values[3] = {0};
-    size_t n         = 0;
+    size_t n = 0;
     if (i >= 0 && models[material->model].parameters[i].kind == FACET_CHOICE) {
         const char *choices = models[material->model].parameters[i].choices;
-        const int choice    = choice_index(choices, value);
+        const int choice = choice_index(choices, value);
         if (choice < 0)
             return facet_error_set(why, FACET_UNKNOWN_NAME, word, "'%.40s' is not a choice; give one of %s", value,
                                    choices);
         values[0] = choice;
-        n         = 1;
+        n = 1;
     } else if (i >= 0) {
         n = parse_numbers(value, values);
-        if (n == 0)
-            return facet_error_set(why, FACET_BAD_SYNTAX, word, "'%.40s' is not a number or r,g,b", value);
+        if (n == 0) return facet_error_set(why, FACET_BAD_SYNTAX, word, "'%.40s' is not a number or r,g,b", value);
     }
     return facet_material_set(material, word, values, n, why);
 }
@@ -249,14 +248,14 @@ facet_status facet_material_parse(const char *text, facet_material *material, fa
     static const char blank[] = " \t\r\n";
     text += strspn(text, blank);
     size_t model;
-    size_t length       = strcspn(text, blank);
+    size_t length = strcspn(text, blank);
     facet_status status = find_model(text, length, &model, why);
     if (status) return status;
     facet_material parsed;
     fill_defaults(model, &parsed);
     for (;;) {
-        text  += length;
-        text  += strspn(text, blank);
+        text += length;
+        text += strspn(text, blank);
         length = strcspn(text, blank);
         if (length == 0) break;
         char word[160];
@@ -264,7 +263,7 @@ facet_status facet_material_parse(const char *text, facet_material *material, fa
             return facet_error_set(why, FACET_BAD_SYNTAX, "", "a word of %zu characters; give key=value", length);
         memcpy(word, text, length);
         word[length] = 0;
-        status       = set_word(&parsed, word, why);
+        status = set_word(&parsed, word, why);
         if (status) return status;
     }
     *material = parsed;

@@ -14,15 +14,15 @@
 typedef microfacet_params beckmann_params;
 
 #define LARGEST_EXPONENT 1000.0f /* exp(-1000) is 0 in double as well */
-#define SLOPE_LIMIT 7.0f         /* P(|slope| > 7) = 4e-23 */
-#define SLOPE_STEPS 12
+#define SLOPE_LIMIT      7.0f    /* P(|slope| > 7) = 4e-23 */
+#define SLOPE_STEPS      12
 
 /* The coefficients of the rational fit, as printed. */
 #define FIT_3_535 ((real)3.535)
 #define FIT_2_181 ((real)2.181)
 #define FIT_2_276 ((real)2.276)
 #define FIT_2_577 ((real)2.577)
-#define FIT_1_6 ((real)1.6)
+#define FIT_1_6   ((real)1.6)
 
 /* D(wm), 1/sr.  [cs500, D_b], tan^2/alpha^2 written with the stretched slopes. */
 KERNEL real beckmann_D(real3 wm, real alpha_x, real alpha_y)

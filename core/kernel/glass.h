@@ -12,7 +12,7 @@
 #include "microfacet.h"
 
 #define WALL_SOLID 0
-#define WALL_THIN 1
+#define WALL_THIN  1
 
 typedef struct glass_params {
     real eta;   /* n inside / n outside, > 0 */
@@ -82,7 +82,14 @@ KERNEL real3 glass_terms(glass_params p, real3 m)
 static const facet_parameter glass_parameters[] = {
     {"ior", FACET_NUMBER, 0.1, 10, {1.5, 0, 0}, "1", "", "index of refraction of the inside to the outside"},
     {"tint", FACET_COLOUR, 0, 1, {1, 1, 1}, "1", "", "multiplies what is transmitted, at each crossing"},
-    {"wall", FACET_CHOICE, 0, 1, {0, 0, 0}, "1", "solid|thin", "a body that refracts, or a thin sheet that does not bend light"},
+    {"wall",
+     FACET_CHOICE,
+     0,
+     1,
+     {0, 0, 0},
+     "1",
+     "solid|thin",
+     "a body that refracts, or a thin sheet that does not bend light"},
 };
 #endif
 

@@ -16,7 +16,7 @@
 #include "ggx.h"
 
 #define DIFFUSE_LAMBERT 0
-#define DIFFUSE_BURLEY 1
+#define DIFFUSE_BURLEY  1
 
 typedef struct metallic_roughness_params {
     real3 kd;      /* (1 - metallic) base */
@@ -27,16 +27,16 @@ typedef struct metallic_roughness_params {
 
 /* From the factors of a material at one point.  dielectric_F0: ((ior - 1)/(ior + 1))^2; specular and
  * specular_color: KHR_materials_specular.  roughness in [0,1]; alpha is kept at 1e-4 or more. */
-KERNEL metallic_roughness_params metallic_roughness_of(real3 base, real metallic, real roughness,
-                                                       real dielectric_F0, real specular, real3 specular_color)
+KERNEL metallic_roughness_params metallic_roughness_of(real3 base, real metallic, real roughness, real dielectric_F0,
+                                                       real specular, real3 specular_color)
 {
     real3 tinted = scale3(dielectric_F0, specular_color);
     real3 F0     = scale3(specular, make3(kmin(tinted.x, 1), kmin(tinted.y, 1), kmin(tinted.z, 1)));
     metallic_roughness_params p;
-    p.kd    = scale3(1 - metallic, base);
-    p.F0    = mix3(F0, base, metallic);
-    p.F90   = splat3(mix(specular, 1, metallic));
-    p.alpha = kmax(roughness*roughness, ALPHA_SMALLEST);
+    p.kd      = scale3(1 - metallic, base);
+    p.F0      = mix3(F0, base, metallic);
+    p.F90     = splat3(mix(specular, 1, metallic));
+    p.alpha   = kmax(roughness*roughness, ALPHA_SMALLEST);
     p.diffuse = DIFFUSE_LAMBERT;
     return p;
 }
@@ -49,7 +49,7 @@ KERNEL real metallic_roughness_p_diffuse(metallic_roughness_params p, real3 wo)
     real sum     = diffuse + F;
     real share   = diffuse/kmax(sum, REAL_MIN);
     /* Never starve a lobe that is there: at least an eighth for each. */
-    real kept    = kclamp(share, 0.125f, 0.875f);
+    real kept = kclamp(share, 0.125f, 0.875f);
     return diffuse > 0 ? (F > 0 ? kept : (real)1) : (real)0;
 }
 
@@ -88,9 +88,9 @@ KERNEL real3 metallic_roughness_eval(metallic_roughness_params p, real3 wi, real
     real G2       = smith_G2(ggx_Lambda(wi, p.alpha, p.alpha), ggx_Lambda(wo, p.alpha, p.alpha), G2_CORRELATED);
     real cos_d    = kmin(kabs(dot3(wi, wm)), 1);
     real3 F       = fresnel_schlick(p.F0, p.F90, cos_d);
-    real specular = D*G2/(4*kmax(wo.z, REAL_MIN));
+    real specular = D*G2/(4*kmax(wo.z, COS_SMALLEST));
     real diffuse  = INV_PI*wi.z*metallic_roughness_base(p, wi.z, wo.z, cos_d, F);
-    return select3((wi.z > 0) & (wo.z > 0), add3(scale3(diffuse, p.kd), scale3(specular, F)), splat3(0));
+    return select3(is_above(wi, wo), add3(scale3(diffuse, p.kd), scale3(specular, F)), splat3(0));
 }
 
 KERNEL real metallic_roughness_pdf(metallic_roughness_params p, real3 wi, real3 wo)
@@ -103,8 +103,8 @@ KERNEL real metallic_roughness_pdf(metallic_roughness_params p, real3 wi, real3 
 KERNEL bsdf_sample metallic_roughness_sample(metallic_roughness_params p, real3 wo, real3 u)
 {
     microfacet_params lobes = metallic_roughness_mixture(p, wo);
-    real3 wm = ggx_sample_vndf(wo, u.x, u.y, p.alpha, p.alpha);
-    real3 wi = microfacet_choose(lobes, wo, wm, u);
+    real3 wm                = ggx_sample_vndf(wo, u.x, u.y, p.alpha, p.alpha);
+    real3 wi                = microfacet_choose(lobes, wo, wm, u);
     return microfacet_complete(lobes, wi, wo, wm, u, metallic_roughness_eval(p, wi, wo),
                                metallic_roughness_pdf(p, wi, wo));
 }
@@ -128,18 +128,32 @@ static const facet_parameter metallic_roughness_parameters[] = {
     {"roughness", FACET_NUMBER, 0, 1, {0.5, 0, 0}, "1", "", "perceptual roughness, alpha = roughness^2"},
     {"ior", FACET_NUMBER, 1, 10, {1.5, 0, 0}, "1", "", "index of refraction of the dielectric"},
     {"specular", FACET_NUMBER, 0, 1, {1, 0, 0}, "1", "", "strength of the dielectric's reflection"},
-    {"specular_color", FACET_COLOUR, 0, 1, {1, 1, 1}, "1", "", "tint of the dielectric's reflection at normal incidence"},
-    {"diffuse", FACET_CHOICE, 0, 1, {0, 0, 0}, "1", "lambert|burley", "base under the interface, or Disney's added to it"},
+    {"specular_color",
+     FACET_COLOUR,
+     0,
+     1,
+     {1, 1, 1},
+     "1",
+     "",
+     "tint of the dielectric's reflection at normal incidence"},
+    {"diffuse",
+     FACET_CHOICE,
+     0,
+     1,
+     {0, 0, 0},
+     "1",
+     "lambert|burley",
+     "base under the interface, or Disney's added to it"},
 };
 #endif
 
 #ifdef FACET_PREPARE
 static metallic_roughness_params metallic_roughness_prepare(const facet_material *m)
 {
-    metallic_roughness_params p =
-        metallic_roughness_of(prepare_colour(m, "base_color"), prepare_number(m, "metallic"),
-                              prepare_number(m, "roughness"), fresnel_normal_incidence(prepare_number(m, "ior")),
-                              prepare_number(m, "specular"), prepare_colour(m, "specular_color"));
+    metallic_roughness_params p = metallic_roughness_of(
+        prepare_colour(m, "base_color"), prepare_number(m, "metallic"), prepare_number(m, "roughness"),
+        fresnel_normal_incidence(prepare_number(m, "ior")), prepare_number(m, "specular"),
+        prepare_colour(m, "specular_color"));
     p.diffuse = prepare_choice(m, "diffuse");
     return p;
 }

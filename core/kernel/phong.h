@@ -15,12 +15,12 @@ typedef microfacet_params phong_params;
 /* Below z p = LIMIT the series loses at most two digits by cancellation and has converged after TERMS
  * terms; above it the fraction has converged after LEVELS levels (checked for exponents 0 to 1e6). */
 #if FACET_REAL_IS_DOUBLE
-#define PHONG_SERIES_LIMIT 2.0f
-#define PHONG_SERIES_TERMS 34
+#define PHONG_SERIES_LIMIT    2.0f
+#define PHONG_SERIES_TERMS    34
 #define PHONG_FRACTION_LEVELS 92
 #else
-#define PHONG_SERIES_LIMIT 1.5f
-#define PHONG_SERIES_TERMS 16
+#define PHONG_SERIES_LIMIT    1.5f
+#define PHONG_SERIES_TERMS    16
 #define PHONG_FRACTION_LEVELS 28
 #endif
 #define PHONG_SERIES_COS2 0.125f
@@ -53,7 +53,7 @@ KERNEL real phong_series(real p, real z)
     real term = 1;
     UNROLL
     for (int k = 0; k < PHONG_SERIES_TERMS; k++) {
-        sum  += term;
+        sum += term;
         term *= z*(p + 0.5f + k)/(1.5f + k);
     }
     return sum;
