@@ -201,13 +201,32 @@ static size_t number_length(const char *text)
     return (size_t)(p - text);
 }
 
+/* The value of a number of that length.  strtod wants the decimal point of the program's locale, which printf shows. */
+static double number_value(const char *text, size_t length)
+{
+    char half[16], copy[256];
+    const int shown = snprintf(half, sizeof half, "%.1f", 0.5); /* "0.5", "0,5" */
+    const size_t point_length = (size_t)shown - 2;
+    size_t used = 0;
+    for (size_t i = 0; i < length && used + point_length < sizeof copy; i++) {
+        if (text[i] == '.') {
+            memcpy(copy + used, half + 1, point_length);
+            used += point_length;
+        } else {
+            copy[used++] = text[i];
+        }
+    }
+    copy[used] = 0;
+    return strtod(copy, NULL);
+}
+
 /* "a" or "a,b,c" into numbers; 0 on anything else. */
 static size_t parse_numbers(const char *text, double values[3])
 {
     for (size_t n = 0; n < 3; n++) {
         const size_t length = number_length(text);
         if (!length) return 0;
-        values[n] = strtod(text, NULL);
+        values[n] = number_value(text, length);
         text += length;
         if (*text == 0) return n + 1;
         if (*text++ != ',') return 0;

@@ -17,7 +17,7 @@
  * that is left in a loop keeps the loop from vectorising. */
 #define KERNEL static inline __attribute__((unused, always_inline))
 
-/* Before a loop of constant length inside a kernel: left as a loop, it keeps clang from vectorising the one around it. */
+/* Before a loop of constant length in a kernel: left as a loop, it keeps clang from vectorising the one around. */
 #if defined(__clang__)
 #define UNROLL _Pragma("clang loop unroll(full)")
 #else

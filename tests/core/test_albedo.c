@@ -113,7 +113,8 @@ static void phong_albedo_at_grazing_incidence(void **state)
 }
 
 /* At alpha = 1 every normal is as likely, and visible-normal sampling loses the share cos_o/(1 + cos_o); at normal
- * incidence alpha^2/(1 + alpha^2) of GGX's normals send light below the horizon. */
+ * incidence alpha^2/(1 + alpha^2) of GGX's normals send light below the horizon.
+ * Cosines below 2^-30 count as 0, which leaves out 2 pi 2^-30 pdf <= 1e-9. */
 static void density_integrates_to_one_less_the_loss(void **state)
 {
     (void)state;
@@ -123,7 +124,7 @@ static void density_integrates_to_one_less_the_loss(void **state)
     for (int is_double = 0; is_double < 2; is_double++) {
         for (int i = 0; i < 7; i++) {
             const any_bsdf bsdf = any_bsdf_of(formats[i], is_double);
-            check(&bsdf, at_normal_incidence(&bsdf, 1), 1/(1 + alphas[i]*alphas[i]), 1e-12);
+            check(&bsdf, at_normal_incidence(&bsdf, 1), 1/(1 + alphas[i]*alphas[i]), 1e-9);
         }
         const any_bsdf uniform = any_bsdf_of("ggx alpha=1", is_double);
         for (int i = 0; i < 4; i++) {

@@ -1,4 +1,4 @@
-/* test_chi_square_mixtures.c: draws of all normals, of the Lambertian lobe, and of mixtures with it follow their density.
+/* test_chi_square_mixtures.c: all normals, the Lambertian lobe, and mixtures are drawn as claimed.
  * SPDX-License-Identifier: MIT */
 #include <setjmp.h>
 #include <stdarg.h>

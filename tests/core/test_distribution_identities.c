@@ -1,7 +1,7 @@
 /* test_distribution_identities.c: integrals that hold exactly for every distribution of normals, in both precisions.
  *
- * In slope space, s = (m.x, m.y)/m.z, D cos_m d omega = P22 ds with P22 = D cos_m^4.  The slopes are measured in
- * units of the roughness and along (p) and across (q) the viewer's plane, where (v.m)/m.z = S (p + a), S the length of the
+ * In slope space, s = (m.x, m.y)/m.z, D cos_m d omega = P22 ds with P22 = D cos_m^4.  Slopes are measured in units
+ * of the roughness, along (p) and across (q) the viewer's plane, where (v.m)/m.z = S (p + a), S the length of the
  * stretched horizontal part of v, a = v.z/S.  The half plane p < -a is behind the viewer.  The rules are exact to
  * 1e-12 for these integrands, so that the tolerances are the kernels'.  Where D matters, its exponent is at most 10
  * and so is its condition number: 10 eps in all in float, 1.2e-6; in double 1e-12, the rules' own error.

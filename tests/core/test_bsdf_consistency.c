@@ -1,0 +1,225 @@
+/* test_bsdf_consistency.c: eval, pdf and sample of one material agree with each other, in both precisions.
+ *
+ * Directions and numbers come from a seeded generator; where float and double are compared they are exact in float.
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/any_bsdf.h"
+#include "tests/draws.h"
+
+static const char *const specs[] = {
+    "lambert kd=.1,.5,.9",
+    "phong exponent=0",
+    "phong exponent=50 g2=separable",
+    "phong alpha_x=.1 alpha_y=.4 kd=.3",
+    "phong exponent=20 masking=published",
+    "beckmann alpha=.05",
+    "beckmann alpha=.6 g2=separable",
+    "beckmann alpha_x=.1 alpha_y=.5 masking=published",
+    "beckmann alpha=.3 sampling=ndf kd=.5 ks=.2,.4,.6",
+    "ggx alpha=.05",
+    "ggx alpha=1",
+    "ggx alpha=.5 g2=separable masking=published",
+    "ggx alpha_x=.4 alpha_y=.1 ior=1.5",
+    "ggx alpha=.3 sampling=ndf kd=.5 ior=.7",
+    "metallic_roughness roughness=.3",
+    "metallic_roughness roughness=.7 metallic=.5 base_color=.9,.5,.1 specular=.5 specular_color=1,.2,.3",
+};
+enum { N_SPECS = sizeof specs/sizeof specs[0], N_DRAWS = 2000 };
+
+/* A direction whose components are floats.  volatile: gcc 12 at -O2 drops the rounding where it vectorises it. */
+static void draw_float_direction(draws *d, double v[3])
+{
+    draw_direction(d, v);
+    for (int k = 0; k < 3; k++) {
+        const volatile float rounded = (float)v[k];
+        v[k] = (double)rounded;
+    }
+}
+
+static void draw_three(draws *d, double u[3])
+{
+    for (int k = 0; k < 3; k++) u[k] = draw(d);
+}
+
+/* |a - b| in units of eps max(|a|, |b|); numbers below the smallest normal float count as 0. */
+static double distance(double a, double b, double epsilon)
+{
+    const double largest = fmax(fabs(a), fabs(b));
+    return largest < 0x1p-126 ? 0 : fabs(a - b)/(largest*epsilon);
+}
+
+static void each_sample(void (*check)(const any_bsdf *bsdf, const double wo[3], const double u[3]))
+{
+    for (int i = 0; i < N_SPECS; i++)
+        for (int is_double = 0; is_double < 2; is_double++) {
+            const any_bsdf bsdf = any_bsdf_of(specs[i], is_double);
+            draws random = {(uint64_t)i};
+            for (int k = 0; k < N_DRAWS; k++) {
+                double wo[3], u[3];
+                draw_float_direction(&random, wo);
+                draw_three(&random, u);
+                check(&bsdf, wo, u);
+            }
+        }
+}
+
+/* eval/pdf at the returned wi: the same two numbers, one division (1 ulp) and its reciprocal form (1 ulp more). */
+static void check_weight(const any_bsdf *bsdf, const double wo[3], const double u[3])
+{
+    const facet_sample64 s = any_sample(bsdf, wo, u);
+    double f[3];
+    if (s.pdf == 0) {
+        for (int k = 0; k < 3; k++) assert_true(s.weight[k] == 0);
+        return;
+    }
+    any_eval(bsdf, s.wi, wo, f);
+    const double pdf = any_pdf(bsdf, s.wi, wo);
+    if (!(distance(pdf, s.pdf, any_epsilon(bsdf)) <= 0))
+        fail_msg("%s, wo (%a, %a, %a), wi (%a, %a, %a): pdf %a, of the sample %a", bsdf->spec, wo[0], wo[1], wo[2],
+                 s.wi[0], s.wi[1], s.wi[2], pdf, s.pdf);
+    for (int k = 0; k < 3; k++)
+        if (!(distance(f[k]/pdf, s.weight[k], any_epsilon(bsdf)) <= 3))
+            fail_msg("%s, wo (%a, %a, %a), wi (%a, %a, %a): eval/pdf %a, weight %a", bsdf->spec, wo[0], wo[1], wo[2],
+                     s.wi[0], s.wi[1], s.wi[2], f[k]/pdf, s.weight[k]);
+}
+
+static void weight_is_eval_over_pdf(void **state)
+{
+    (void)state;
+    each_sample(check_weight);
+}
+
+/* Mirroring keeps lengths: 2 (wo.wm) wm - wo has relative errors of eps in each of five operations, and wm has a length
+ * of 1 to 2 eps, which counts four times. */
+static void check_direction(const any_bsdf *bsdf, const double wo[3], const double u[3])
+{
+    const facet_sample64 s = any_sample(bsdf, wo, u);
+    const double length = sqrt(s.wi[0]*s.wi[0] + s.wi[1]*s.wi[1] + s.wi[2]*s.wi[2]);
+    /* The viewer's own length is rounded in float. */
+    if (!(fabs(length - 1) <= 16*any_epsilon(bsdf) + 0x1p-23))
+        fail_msg("%s, wo (%a, %a, %a), u (%a, %a, %a): |wi| - 1 = %g", bsdf->spec, wo[0], wo[1], wo[2], u[0], u[1],
+                 u[2], length - 1);
+    assert_true(s.pdf == 0 || s.wi[2] > 0);
+    assert_true(s.lobe & FACET_REFLECTION);
+    assert_true(!(s.lobe & (FACET_TRANSMISSION | FACET_DELTA)));
+}
+
+static void sampled_directions_are_unit_vectors_above(void **state)
+{
+    (void)state;
+    each_sample(check_direction);
+}
+
+/* Roundings that may differ between f(wi,wo) and f(wo,wi), in eps.  The half vector is the same sum, bit for bit;
+ * wi.wm and wo.wm differ by 6 eps at most, which Fresnel's term takes times its condition number, at most 10, and
+ * times 2 c^2/radicand where the radicand c^2 - (1 - ior^2) of total reflection is nearly 0. */
+static double reciprocity_bound(const any_bsdf *bsdf, const double wi[3], const double wo[3])
+{
+    if (!strstr(bsdf->spec, "ior=.7")) return 64;
+    const double c2 = 0.5*(1 + wi[0]*wo[0] + wi[1]*wo[1] + wi[2]*wo[2]);
+    return 64 + 12*c2/fmax(fabs(c2 - 0.51), any_epsilon(bsdf));
+}
+
+static void eval_is_reciprocal(void **state)
+{
+    (void)state;
+    double worst = 0;
+    for (int i = 0; i < N_SPECS; i++)
+        for (int is_double = 0; is_double < 2; is_double++) {
+            const any_bsdf bsdf = any_bsdf_of(specs[i], is_double);
+            draws random = {(uint64_t)i};
+            for (int n = 0; n < N_DRAWS; n++) {
+                double wi[3], wo[3], forth[3], back[3];
+                draw_direction(&random, wi);
+                draw_direction(&random, wo);
+                any_eval(&bsdf, wi, wo, forth);
+                any_eval(&bsdf, wo, wi, back);
+                for (int k = 0; k < 3; k++) {
+                    const double ulps = distance(forth[k]*wo[2], back[k]*wi[2], any_epsilon(&bsdf));
+                    worst = fmax(worst, ulps);
+                    if (!(ulps <= reciprocity_bound(&bsdf, wi, wo)))
+                        fail_msg("%s, wi (%a, %a, %a), wo (%a, %a, %a): f %a and %a", specs[i], wi[0], wi[1], wi[2],
+                                 wo[0], wo[1], wo[2], forth[k]/wi[2], back[k]/wo[2]);
+                }
+            }
+        }
+    print_message("  largest difference of f(wi,wo) and f(wo,wi): %.1f eps\n", worst);
+}
+
+/* With F = 1 the weight of a visible normal is G2/G1(wo) <= 1; 8 roundings. */
+static void visible_normals_never_weigh_more_than_one(void **state)
+{
+    (void)state;
+    static const char *const white[] = {"ggx alpha=1e-4",
+                                        "ggx alpha=.3",
+                                        "ggx alpha=4",
+                                        "ggx alpha=1 g2=separable",
+                                        "beckmann alpha=1e-4",
+                                        "beckmann alpha=.5",
+                                        "beckmann alpha_x=4 alpha_y=.01 g2=separable"};
+    for (size_t i = 0; i < sizeof white/sizeof white[0]; i++)
+        for (int is_double = 0; is_double < 2; is_double++) {
+            const any_bsdf bsdf = any_bsdf_of(white[i], is_double);
+            draws random = {(uint64_t)i};
+            double sum = 0;
+            for (int n = 0; n < N_DRAWS; n++) {
+                double wo[3], u[3];
+                draw_float_direction(&random, wo);
+                draw_three(&random, u);
+                const facet_sample64 s = any_sample(&bsdf, wo, u);
+                sum += s.weight[0];
+                if (!(s.weight[0] <= 1 + 8*any_epsilon(&bsdf)))
+                    fail_msg("%s, wo (%a, %a, %a), u (%a, %a, %a): weight %a", white[i], wo[0], wo[1], wo[2], u[0],
+                             u[1], u[2], s.weight[0]);
+            }
+            assert_true(sum > 0);
+        }
+}
+
+/* The two builds of the kernels at the same inputs.  The error is relative to the value, and grows with the exponent
+ * of D, at most 40 where the value is above 1e-15 of D at the normal, and like 1/cos at grazing angles of alpha .05. */
+static void float_agrees_with_double(void **state)
+{
+    (void)state;
+    double worst = 0;
+    for (int i = 0; i < N_SPECS; i++) {
+        const any_bsdf single = any_bsdf_of(specs[i], 0), twice = any_bsdf_of(specs[i], 1);
+        draws random = {(uint64_t)(100 + i)};
+        for (int n = 0; n < N_DRAWS; n++) {
+            double wi[3], wo[3], f[3], exact[3];
+            draw_float_direction(&random, wi);
+            draw_float_direction(&random, wo);
+            any_eval(&single, wi, wo, f);
+            any_eval(&twice, wi, wo, exact);
+            const double values[2][4] = {{f[0], f[1], f[2], any_pdf(&single, wi, wo)},
+                                         {exact[0], exact[1], exact[2], any_pdf(&twice, wi, wo)}};
+            for (int k = 0; k < 4; k++) {
+                if (values[1][k] < 1e-12) continue;
+                const double error = fabs(values[0][k]/values[1][k] - 1);
+                worst = fmax(worst, error);
+                if (!(error <= 2e-5))
+                    fail_msg("%s, wi (%a, %a, %a), wo (%a, %a, %a), value %d: float %a, double %a", specs[i], wi[0],
+                             wi[1], wi[2], wo[0], wo[1], wo[2], k, values[0][k], values[1][k]);
+            }
+        }
+    }
+    print_message("  largest relative difference of float and double: %.2g\n", worst);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(weight_is_eval_over_pdf),  cmocka_unit_test(sampled_directions_are_unit_vectors_above),
+        cmocka_unit_test(eval_is_reciprocal),       cmocka_unit_test(visible_normals_never_weigh_more_than_one),
+        cmocka_unit_test(float_agrees_with_double),
+    };
+    return cmocka_run_group_tests_name("bsdf_consistency", tests, NULL, NULL);
+}

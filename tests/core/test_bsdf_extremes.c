@@ -1,0 +1,181 @@
+/* test_bsdf_extremes.c: no direction, number or parameter in range gives NaN, Inf or a negative value, and nothing is
+ * reflected to or from below the horizon.
+ * SPDX-License-Identifier: MIT */
+#include <float.h>
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "tests/any_bsdf.h"
+
+static const char *const specs[] = {
+    "lambert kd=1",
+    "lambert kd=0",
+    "phong exponent=0",
+    "phong exponent=1e6",
+    "phong exponent=50 masking=published kd=.5",
+    "phong alpha_x=1e-3 alpha_y=1",
+    "phong alpha_x=1 alpha_y=1 ior=.1",
+    "beckmann alpha=1e-4",
+    "beckmann alpha=4",
+    "beckmann alpha_x=1e-4 alpha_y=4 g2=separable",
+    "beckmann alpha=.3 masking=published sampling=ndf",
+    "ggx alpha=1e-4",
+    "ggx alpha=4",
+    "ggx alpha_x=4 alpha_y=1e-4 g2=separable",
+    "ggx alpha=.3 sampling=ndf ior=10 kd=1",
+    "ggx alpha=1e-4 sampling=ndf ks=0",
+    "metallic_roughness roughness=0",
+    "metallic_roughness roughness=1 metallic=1 base_color=0",
+    "metallic_roughness roughness=0 metallic=0 specular=0 base_color=1",
+    "glass",
+    "glass ior=.1 tint=0",
+    "glass ior=10 wall=thin",
+};
+enum { N_SPECS = sizeof specs/sizeof specs[0] };
+
+/* The normal, the tangent plane with both zeros, steps from one to the other, denormal and tiny cosines, both sides. */
+static const double heights[] = {1,   0.9999999, 0.5,     1e-3,   1e-7,  1e-30,      0x1p-140, 0x1p-1060,
+                                 0.0, -0.0,      -1e-300, -1e-40, -1e-5, -0.7071067, -1};
+static const double azimuths[] = {0, 1.5707963267948966, 3.141592653589793, -1.5707963267948966, 0.3, 3.4415926};
+static const double numbers[] = {0, 0x1p-149, 0x1p-24, 0.25, 0.5, 0.875, 1 - 0x1p-24};
+enum { N_HEIGHTS = 15, N_AZIMUTHS = 6, N_NUMBERS = 7, N_DIRECTIONS = N_HEIGHTS*N_AZIMUTHS };
+
+static void direction_of(int i, double v[3])
+{
+    any_direction(heights[i/N_AZIMUTHS], azimuths[i%N_AZIMUTHS], v);
+    if (i%N_AZIMUTHS == 0) v[1] = 0; /* exactly along an axis */
+}
+
+static int is_fine(double x)
+{
+    return isfinite(x) && x >= 0;
+}
+
+/* The height as the build sees it. */
+static double height(const any_bsdf *bsdf, const double v[3])
+{
+    return bsdf->is_double ? v[2] : (double)(float)v[2];
+}
+
+static void check_pair(const any_bsdf *bsdf, const double wi[3], const double wo[3])
+{
+    double f[3];
+    any_eval(bsdf, wi, wo, f);
+    const double pdf = any_pdf(bsdf, wi, wo);
+    const int is_below = !(height(bsdf, wi) > 0 && height(bsdf, wo) > 0);
+    for (int k = 0; k < 3; k++)
+        if (!is_fine(f[k]) || (is_below && f[k] != 0))
+            fail_msg("%s, %s: wi (%a, %a, %a), wo (%a, %a, %a): eval %a", bsdf->spec,
+                     bsdf->is_double ? "double" : "float", wi[0], wi[1], wi[2], wo[0], wo[1], wo[2], f[k]);
+    if (!is_fine(pdf) || (is_below && pdf != 0))
+        fail_msg("%s, %s: wi (%a, %a, %a), wo (%a, %a, %a): pdf %a", bsdf->spec, bsdf->is_double ? "double" : "float",
+                 wi[0], wi[1], wi[2], wo[0], wo[1], wo[2], pdf);
+}
+
+static void eval_and_pdf_are_finite(void **state)
+{
+    (void)state;
+    for (int s = 0; s < N_SPECS; s++)
+        for (int is_double = 0; is_double < 2; is_double++) {
+            const any_bsdf bsdf = any_bsdf_of(specs[s], is_double);
+            for (int i = 0; i < N_DIRECTIONS; i++) {
+                double wi[3], wo[3];
+                direction_of(i, wi);
+                for (int j = 0; j < N_DIRECTIONS; j++) {
+                    direction_of(j, wo);
+                    check_pair(&bsdf, wi, wo);
+                }
+                for (int k = 0; k < 3; k++) wo[k] = -wi[k]; /* the half vector vanishes */
+                check_pair(&bsdf, wi, wo);
+                check_pair(&bsdf, wi, wi);
+                wo[2] = wi[2]; /* mirrored about the normal */
+                check_pair(&bsdf, wi, wo);
+            }
+        }
+}
+
+static void check_draw(const any_bsdf *bsdf, const double wo[3], const double u[3])
+{
+    const facet_sample64 s = any_sample(bsdf, wo, u);
+    const int is_delta = s.lobe & FACET_DELTA;
+    int is_good = is_fine(s.pdf);
+    for (int k = 0; k < 3; k++)
+        is_good = is_good && is_fine(s.weight[k]) && isfinite(s.wi[k]) && fabs(s.wi[k]) <= 1.001;
+    if (s.pdf == 0) is_good = is_good && s.weight[0] == 0 && s.weight[1] == 0 && s.weight[2] == 0;
+    if (!is_delta && !(height(bsdf, wo) > 0)) is_good = is_good && s.pdf == 0;
+    if (!is_delta && s.pdf > 0) is_good = is_good && s.wi[2] > 0;
+    if (!is_good)
+        fail_msg("%s, %s: wo (%a, %a, %a), u (%a, %a, %a): wi (%a, %a, %a), pdf %a, weight %a", bsdf->spec,
+                 bsdf->is_double ? "double" : "float", wo[0], wo[1], wo[2], u[0], u[1], u[2], s.wi[0], s.wi[1], s.wi[2],
+                 s.pdf, s.weight[0]);
+}
+
+static void samples_are_finite(void **state)
+{
+    (void)state;
+    for (int s = 0; s < N_SPECS; s++)
+        for (int is_double = 0; is_double < 2; is_double++) {
+            const any_bsdf bsdf = any_bsdf_of(specs[s], is_double);
+            for (int i = 0; i < N_DIRECTIONS; i++)
+                for (int n = 0; n < N_NUMBERS*N_NUMBERS*3; n++) {
+                    const double u[3] = {numbers[n%N_NUMBERS], numbers[n/N_NUMBERS%N_NUMBERS],
+                                         numbers[n/(N_NUMBERS*N_NUMBERS)*3]};
+                    double wo[3];
+                    direction_of(i, wo);
+                    check_draw(&bsdf, wo, u);
+                }
+        }
+}
+
+/* D, Lambda >= 0 and G1 in [0, 1]; Lambda is bounded, so that it stays finite at the horizon. */
+static void terms_are_finite(void **state)
+{
+    (void)state;
+    for (int s = 0; s < N_SPECS; s++)
+        for (int is_double = 0; is_double < 2; is_double++) {
+            const any_bsdf bsdf = any_bsdf_of(specs[s], is_double);
+            for (int i = 0; i < N_DIRECTIONS; i++) {
+                double m[3];
+                direction_of(i, m);
+                const facet_terms64 t = any_terms(&bsdf, m);
+                /* The published fit of G1 exceeds 1 by 6e-5 (errata, section 2). */
+                const int is_good = is_fine(t.D) && isfinite(t.Lambda) && t.Lambda >= -7e-5 && t.G1 >= 0 &&
+                                    t.G1 <= 1 + 7e-5;
+                if (!is_good || (!(height(&bsdf, m) > 0) && (t.D != 0 || t.G1 != 0)))
+                    fail_msg("%s, %s: m (%a, %a, %a): D %a, Lambda %a, G1 %a", specs[s], is_double ? "double" : "float",
+                             m[0], m[1], m[2], t.D, t.Lambda, t.G1);
+            }
+        }
+}
+
+/* A viewer that sees the surface finds samples: the guards refuse nothing but what they are for.  The roughest lobes
+ * send most of their samples below the horizon. */
+static void visible_surfaces_give_samples(void **state)
+{
+    (void)state;
+    const double wo[3] = {0.6, 0, 0.8};
+    for (int s = 0; s < N_SPECS; s++)
+        for (int is_double = 0; is_double < 2; is_double++) {
+            const any_bsdf bsdf = any_bsdf_of(specs[s], is_double);
+            int found = 0;
+            for (int i = 0; i < 64; i++)
+                found += any_sample(&bsdf, wo, (double[3]){(i%8 + 0.5)/8, (i/8 + 0.5)/8, 0.5}).pdf > 0;
+            if (found < 4) fail_msg("%s: %d of 64 samples", specs[s], found);
+        }
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(eval_and_pdf_are_finite),
+        cmocka_unit_test(samples_are_finite),
+        cmocka_unit_test(terms_are_finite),
+        cmocka_unit_test(visible_surfaces_give_samples),
+    };
+    return cmocka_run_group_tests_name("bsdf_extremes", tests, NULL, NULL);
+}
