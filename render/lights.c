@@ -223,15 +223,17 @@ static float one_minus_cos(float sin2)
     return sin2/(1 + ksqrt(kmax(1 - sin2, 0)));
 }
 
-/* The density over the cone of directions to a sphere; 0 from inside. */
+/* The density over the cone of directions to a sphere; 0 from inside and from its surface, where rounding alone
+ * would decide which side a point lies on. */
 static float cone_pdf(const sphere *sp, real3 from)
 {
     const real3 axis = sub3(vector_of(sp->center), from);
-    const float sin2 = sp->radius*sp->radius/kmax(dot3(axis, axis), REAL_MIN);
-    return sin2 < 1 ? 1/(TWO_PI*one_minus_cos(sin2)) : 0;
+    const float d2 = dot3(axis, axis);
+    const float clear = sp->radius + 1e-5f*kmax(sp->radius, max_abs3(vector_of(sp->center)));
+    return d2 > clear*clear ? 1/(TWO_PI*one_minus_cos(sp->radius*sp->radius/d2)) : 0;
 }
 
-/* From outside: a direction uniform in the cone around the sphere, [shirley96].  From inside: a uniform point. */
+/* From outside: a direction uniform in the cone around the sphere, [shirley96].  Elsewhere: a uniform point. */
 static light_sample sample_sphere(const light_set *set, const emitter *e, real3 from, float u, float v)
 {
     const sphere *sp = &set->scene->spheres[e->primitive];
@@ -240,6 +242,7 @@ static light_sample sample_sphere(const light_set *set, const emitter *e, real3 
     const float pdf = cone_pdf(sp, from);
     light_sample s = {.radiance = vector_of(set->scene->materials[sp->material].emission)};
     real3 outward;
+    bool is_front = true;
     if (pdf > 0) {
         const float d2 = dot3(axis, axis), d = ksqrt(d2);
         const float drop = u*one_minus_cos(sp->radius*sp->radius/d2); /* 1 - cos */
@@ -252,14 +255,15 @@ static light_sample sample_sphere(const light_set *set, const emitter *e, real3 
         outward = normalize3(sub3(madd3(from, along, s.direction), center));
         s.pdf = pdf;
     } else {
-        if (!e->is_double_sided) return (light_sample){.pdf = 0};
         const float z = 1 - 2*u, sin = ksqrt(kmax(1 - z*z, 0));
         outward = make3(sin*azimuth.x, sin*azimuth.y, z);
         const real3 to_point = sub3(madd3(center, sp->radius, outward), from);
         s.direction = normalize3(to_point);
         s.pdf = area_pdf(to_point, outward, FOUR_PI*sp->radius*sp->radius);
+        is_front = dot3(to_point, outward) < 0;
+        if (!is_front && !e->is_double_sided) return (light_sample){.pdf = 0};
     }
-    s.target = madd3(center, pdf > 0 ? sp->radius + e->offset : sp->radius - e->offset, outward);
+    s.target = madd3(center, is_front ? sp->radius + e->offset : sp->radius - e->offset, outward);
     return s;
 }
 
