@@ -21,7 +21,11 @@ typedef struct emitter {
     real3 origin, edge1, edge2; /* triangle, world space */
     real3 normal;               /* triangle, unit, on the front side */
     float offset;               /* how far shadow rays stop from the surface [m] */
+    float strength;             /* mean radiance, or intensity, or irradiance of a directional light (luminances) */
 } emitter;
+
+/* Up to this many emitters are weighed anew for each point that is lit; more are chosen by their power. */
+#define MOST_WEIGHED 32
 
 struct light_set {
     const scene *scene;
@@ -36,6 +40,7 @@ struct light_set {
 
 static facet_status add_emitter(light_set *set, double **powers, const emitter *e, double power)
 {
+    const bool is_usable = isfinite(power) && power > 0;
     if (set->n_emitters == set->capacity) {
         const uint32_t capacity = set->capacity ? 2*set->capacity : 16;
         emitter *emitters = realloc(set->emitters, capacity*sizeof *emitters);
@@ -45,8 +50,10 @@ static facet_status add_emitter(light_set *set, double **powers, const emitter *
         if (!emitters || !larger) return FACET_NO_MEMORY;
         set->capacity = capacity;
     }
-    (*powers)[set->n_emitters] = isfinite(power) && power > 0 ? power : 0;
-    set->emitters[set->n_emitters++] = *e;
+    (*powers)[set->n_emitters] = is_usable ? power : 0;
+    set->emitters[set->n_emitters] = *e;
+    if (!is_usable) set->emitters[set->n_emitters].strength = 0;
+    set->n_emitters++;
     return FACET_OK;
 }
 
@@ -88,7 +95,9 @@ static facet_status add_instance(light_set *set, double **powers, size_t index)
         e.normal = scale3(sign, normal_of_edges(e.edge1, e.edge2));
         e.is_double_sided = mat->is_double_sided;
         e.offset = 3e-6f*kmax(max_abs3(p0), kmax(max_abs3(p1), max_abs3(p2)));
-        const double power = (double)PI*(double)e.area*mean_emission(s, m, i)*(e.is_double_sided ? 2 : 1);
+        const double mean = mean_emission(s, m, i);
+        e.strength = (float)mean;
+        const double power = (double)PI*(double)e.area*mean*(e.is_double_sided ? 2 : 1);
         if (add_emitter(set, powers, &e, power)) return FACET_NO_MEMORY;
     }
     return FACET_OK;
@@ -105,7 +114,8 @@ static facet_status add_sphere(light_set *set, double **powers, size_t index)
     const emitter e = {.kind = EMITTER_SPHERE,
                        .primitive = (uint32_t)index,
                        .is_double_sided = mat->is_double_sided,
-                       .offset = 3e-6f*kmax(max_abs3(vector_of(sp->center)), sp->radius)};
+                       .offset = 3e-6f*kmax(max_abs3(vector_of(sp->center)), sp->radius),
+                       .strength = (float)L};
     return add_emitter(set, powers, &e, 4*(double)PI*(double)PI*(double)sp->radius*(double)sp->radius*L);
 }
 
@@ -117,7 +127,7 @@ static facet_status add_punctual(light_set *set, double **powers, size_t index, 
     double extent = 4*(double)PI;
     if (light->kind == LIGHT_SPOT) extent = 2*(double)PI*(1 - 0.5*(double)(light->cos_inner + light->cos_outer));
     if (light->kind == LIGHT_DIRECTIONAL) extent = (double)PI*scene_radius*scene_radius;
-    const emitter e = {.kind = EMITTER_PUNCTUAL, .primitive = (uint32_t)index};
+    const emitter e = {.kind = EMITTER_PUNCTUAL, .primitive = (uint32_t)index, .strength = (float)I};
     return add_emitter(set, powers, &e, I*extent);
 }
 
@@ -140,7 +150,7 @@ static facet_status collect(light_set *set, double **powers)
     set->sky_emitter = NONE;
     if (set->sky.mean > 0) {
         set->sky_emitter = set->n_emitters;
-        const emitter e = {.kind = EMITTER_SKY};
+        const emitter e = {.kind = EMITTER_SKY, .strength = (float)set->sky.mean};
         const double pi2 = (double)PI*(double)PI;
         if (add_emitter(set, powers, &e, 4*pi2*radius2*set->sky.mean)) return FACET_NO_MEMORY;
     }
@@ -294,12 +304,79 @@ static light_sample sample_punctual(const light_set *set, const emitter *e, real
     return s;
 }
 
+/* About the irradiance that an emitter brings to a point, whatever the surface there: what it is chosen by.  0 only
+ * where it brings none. */
+static float importance(const light_set *set, const emitter *e, real3 from)
+{
+    switch (e->kind) {
+    case EMITTER_TRIANGLE: {
+        const real3 third = scale3((real)0.333333333333333, add3(e->edge1, e->edge2));
+        const real3 to_light = sub3(add3(e->origin, third), from);
+        const float d2 = dot3(to_light, to_light), height = -dot3(to_light, e->normal);
+        if (!(height > 0 || e->is_double_sided)) return 0;
+        /* The area in the denominator bounds the weight near the light; a tenth more cosine, its range. */
+        const float cos = kabs(height)/ksqrt(kmax(d2, REAL_MIN));
+        return e->strength*e->area*(0.1f + cos)/(d2 + e->area);
+    }
+    case EMITTER_SPHERE: {
+        const sphere *sp = &set->scene->spheres[e->primitive];
+        const real3 axis = sub3(vector_of(sp->center), from);
+        const float r2 = sp->radius*sp->radius;
+        return e->strength*PI*r2/kmax(dot3(axis, axis), r2);
+    }
+    case EMITTER_PUNCTUAL: {
+        const punctual_light *light = &set->scene->lights[e->primitive];
+        const real3 to_light = sub3(vector_of(light->position), from);
+        return light->kind == LIGHT_DIRECTIONAL ? e->strength : e->strength/kmax(dot3(to_light, to_light), 1e-12f);
+    }
+    case EMITTER_SKY: break;
+    }
+    return e->strength*PI;
+}
+
+/* Chooses an emitter for a point; *rest is what is left of u, *probability that of the choice, 0 for none. */
+static uint32_t choose_emitter(const light_set *set, real3 from, uint32_t u, uint32_t *rest, float *probability)
+{
+    if (set->n_emitters > MOST_WEIGHED) {
+        const uint32_t index = alias_table_draw(&set->choice, u, rest);
+        *probability = set->choice.cells[index].probability;
+        return index;
+    }
+    double weights[MOST_WEIGHED], sum = 0;
+    for (uint32_t i = 0; i < set->n_emitters; i++) sum += weights[i] = (double)importance(set, &set->emitters[i], from);
+    double left = (double)u*0x1p-32*sum;
+    uint32_t index = 0, last = 0;
+    for (; index < set->n_emitters; left -= weights[index++]) {
+        if (weights[index] > 0) last = index;
+        if (left < weights[index]) break;
+    }
+    if (index == set->n_emitters) { /* rounding at the upper end */
+        index = last;
+        left = 0;
+    }
+    *probability = sum > 0 && isfinite(sum) ? (float)(weights[index]/sum) : 0;
+    const double fraction_left = *probability > 0 ? left/weights[index]*0x1p32 : 0;
+    *rest = fraction_left < 0x1p32 - 1 ? (uint32_t)fraction_left : UINT32_MAX;
+    return index;
+}
+
+/* The probability with which choose_emitter chooses this one. */
+static float choice_probability(const light_set *set, real3 from, size_t index)
+{
+    if (set->n_emitters > MOST_WEIGHED) return set->choice.cells[index].probability;
+    double sum = 0;
+    for (uint32_t i = 0; i < set->n_emitters; i++) sum += (double)importance(set, &set->emitters[i], from);
+    return sum > 0 && isfinite(sum) ? (float)((double)importance(set, &set->emitters[index], from)/sum) : 0;
+}
+
 light_sample light_set_sample(const light_set *set, real3 from, const uint32_t u[3])
 {
     light_sample s = {.pdf = 0};
     if (set->n_emitters == 0) return s;
     uint32_t rest;
-    const uint32_t index = alias_table_draw(&set->choice, u[0], &rest);
+    float probability;
+    const uint32_t index = choose_emitter(set, from, u[0], &rest, &probability);
+    if (!(probability > 0)) return s;
     const emitter *e = &set->emitters[index];
     const float v = fraction(u[1]), w = fraction(u[2]);
     switch (e->kind) {
@@ -314,7 +391,7 @@ light_sample light_set_sample(const light_set *set, real3 from, const uint32_t u
         s.is_infinite = true;
         break;
     }
-    s.pdf *= set->choice.cells[index].probability;
+    s.pdf *= probability;
     return s;
 }
 
@@ -324,8 +401,8 @@ float light_set_pdf_of_hit(const light_set *set, real3 from, const hit *h, const
         const size_t first = set->first_of_instance[h->instance];
         if (first == NONE) return 0;
         const emitter *e = &set->emitters[first + h->primitive];
-        return set->choice.cells[first + h->primitive].probability*
-               area_pdf(sub3(at->position, from), e->normal, e->area);
+        const float pdf = area_pdf(sub3(at->position, from), e->normal, e->area);
+        return pdf > 0 ? pdf*choice_probability(set, from, first + h->primitive) : 0;
     }
     const size_t index = set->of_sphere[h->primitive];
     if (index == NONE) return 0;
@@ -333,11 +410,11 @@ float light_set_pdf_of_hit(const light_set *set, real3 from, const hit *h, const
     const float cone = cone_pdf(sp, from);
     const float pdf = cone > 0 ? cone
                                : area_pdf(sub3(at->position, from), at->normal, FOUR_PI*sp->radius*sp->radius);
-    return set->choice.cells[index].probability*pdf;
+    return pdf*choice_probability(set, from, index);
 }
 
-float light_set_pdf_of_sky(const light_set *set, real3 direction)
+float light_set_pdf_of_sky(const light_set *set, real3 from, real3 direction)
 {
     if (set->sky_emitter == NONE) return 0;
-    return set->choice.cells[set->sky_emitter].probability*sky_pdf(&set->sky, direction);
+    return choice_probability(set, from, set->sky_emitter)*sky_pdf(&set->sky, direction);
 }

@@ -1,6 +1,7 @@
 /* lights.h: everything that emits: choosing one, a point on it, and the densities of both.
  *
- * A light is chosen with probability proportional to an estimate of its power; the sky counts as one light.
+ * A light is chosen with probability proportional to an estimate of the light that it brings to the point (to its
+ * power, where there are many lights); the sky counts as one light.
  * Densities are per solid angle at the point that is lit, the choice of the light included, so that they
  * can be compared with the density of a scattering sampler.  [cs500-corrected]: SampleLight, PdfLight.
  * SPDX-License-Identifier: MIT */
@@ -45,7 +46,7 @@ light_sample light_set_sample(const light_set *set, real3 from, const uint32_t u
 float light_set_pdf_of_hit(const light_set *set, real3 from, const hit *h, const surface *at);
 
 /* The same for the sky in a direction. */
-float light_set_pdf_of_sky(const light_set *set, real3 direction);
+float light_set_pdf_of_sky(const light_set *set, real3 from, real3 direction);
 
 #ifdef __cplusplus
 }

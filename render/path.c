@@ -155,7 +155,8 @@ static void gather_sky(const path_context *c, path *p)
     const real3 direction = normalize3(vector_of(p->ray.direction));
     const real3 radiance = sky_radiance(light_set_sky(c->lights), direction);
     if (!(max_of3(radiance) > 0)) return;
-    gather(p, radiance, implicit_weight(c, p, p->origin == FROM_LOBE ? light_set_pdf_of_sky(c->lights, direction) : 0));
+    gather(p, radiance,
+           implicit_weight(c, p, p->origin == FROM_LOBE ? light_set_pdf_of_sky(c->lights, p->previous, direction) : 0));
 }
 
 static void gather_emission(const path_context *c, path *p, const surface *at)
