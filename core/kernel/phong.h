@@ -82,7 +82,7 @@ KERNEL real phong_fraction(real b, real x, real z)
  * B = B(1/2, p):
  *     Lambda = x^p/(2 b sqrt(z) B) - I_x(p, 1/2)/2.
  * Where z is small, I_x = 1 - 2 sqrt(z) x^p S/B with the series S; elsewhere, with all terms positive,
- *     Lambda = x^b/(2 pi mu) Int_0^1 sqrt(v) (1 - v)^(b-1)/(mu^2 + v) dv = x^p F/(4 b p sqrt(z) B),
+ *     Lambda = x^b/(2 pi mu) Int_0^1 sqrt(v) (1 - v)^(b-1)/(z + x v) dv = x^p F/(4 b p sqrt(z) B),
  * with F the continued fraction.  Derivation: docs/models/phong.md. */
 KERNEL real phong_Lambda(real3 v, real exponent, real beta_inverse, real alpha_x, real alpha_y)
 {

@@ -31,6 +31,7 @@ static const char *const specs[] = {
     "ggx alpha=.3 sampling=ndf kd=.5 ior=.7",
     "metallic_roughness roughness=.3",
     "metallic_roughness roughness=.7 metallic=.5 base_color=.9,.5,.1 specular=.5 specular_color=1,.2,.3",
+    "metallic_roughness roughness=.5 diffuse=burley",
 };
 enum { N_SPECS = sizeof specs/sizeof specs[0], N_DRAWS = 2000 };
 
@@ -214,12 +215,62 @@ static void float_agrees_with_double(void **state)
     print_message("  largest relative difference of float and double: %.2g\n", worst);
 }
 
+/* Every sample's lobe is one that the material announces, and each announced one occurs. */
+static void lobes_are_those_of_the_samples(void **state)
+{
+    (void)state;
+    static const char *const glasses[] = {"glass", "glass wall=thin ior=2"};
+    for (int i = 0; i < N_SPECS + 2; i++) {
+        const any_bsdf bsdf = any_bsdf_of(i < N_SPECS ? specs[i] : glasses[i - N_SPECS], 0);
+        const int announced = facet_bsdf_lobes(&bsdf.single);
+        assert_int_equal(announced, facet_bsdf64_lobes(&bsdf.twice));
+        draws random = {(uint64_t)i};
+        int seen = 0;
+        for (int k = 0; k < N_DRAWS; k++) {
+            double wo[3], u[3];
+            draw_direction(&random, wo);
+            draw_three(&random, u);
+            const facet_sample64 s = any_sample(&bsdf, wo, u);
+            if (s.pdf > 0) seen |= s.lobe;
+        }
+        if (seen != announced) fail_msg("%s: lobes %d, announced %d", bsdf.spec, seen, announced);
+    }
+}
+
+/* The short ways to a prepared material give the bits of the long one. */
+static void materials_straight_from_values_are_the_same(void **state)
+{
+    (void)state;
+    const any_bsdf gltf = any_bsdf_of("metallic_roughness base_color=.75,.5,.25 metallic=.25 roughness=.5 ior=3 "
+                                      "specular=.5 specular_color=1,.5,.25",
+                                      0);
+    const facet_bsdf fast = facet_bsdf_metallic_roughness((float[]){.75f, .5f, .25f}, .25f, .5f, .25f, .5f,
+                                                          (float[]){1, .5f, .25f});
+    const any_bsdf glass = any_bsdf_of("glass ior=2 tint=.5,.25,1 wall=thin", 0);
+    const facet_bsdf fast_glass = facet_bsdf_glass(2, (float[]){.5f, .25f, 1}, 1);
+    draws random = {1};
+    for (int k = 0; k < N_DRAWS; k++) {
+        double v[3];
+        draw_direction(&random, v);
+        const float wo[3] = {(float)v[0], (float)v[1], (float)v[2]};
+        const float u[3] = {(float)draw(&random), (float)draw(&random), (float)draw(&random)};
+        const facet_sample a = facet_bsdf_sample(&gltf.single, wo, u), b = facet_bsdf_sample(&fast, wo, u);
+        const facet_sample c = facet_bsdf_sample(&glass.single, wo, u), d = facet_bsdf_sample(&fast_glass, wo, u);
+        assert_memory_equal(&a, &b, sizeof a);
+        assert_memory_equal(&c, &d, sizeof c);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(weight_is_eval_over_pdf),  cmocka_unit_test(sampled_directions_are_unit_vectors_above),
-        cmocka_unit_test(eval_is_reciprocal),       cmocka_unit_test(visible_normals_never_weigh_more_than_one),
+        cmocka_unit_test(weight_is_eval_over_pdf),
+        cmocka_unit_test(sampled_directions_are_unit_vectors_above),
+        cmocka_unit_test(eval_is_reciprocal),
+        cmocka_unit_test(visible_normals_never_weigh_more_than_one),
         cmocka_unit_test(float_agrees_with_double),
+        cmocka_unit_test(lobes_are_those_of_the_samples),
+        cmocka_unit_test(materials_straight_from_values_are_the_same),
     };
     return cmocka_run_group_tests_name("bsdf_consistency", tests, NULL, NULL);
 }

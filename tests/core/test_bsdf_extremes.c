@@ -32,6 +32,7 @@ static const char *const specs[] = {
     "metallic_roughness roughness=0",
     "metallic_roughness roughness=1 metallic=1 base_color=0",
     "metallic_roughness roughness=0 metallic=0 specular=0 base_color=1",
+    "metallic_roughness roughness=1 diffuse=burley base_color=1",
     "glass",
     "glass ior=.1 tint=0",
     "glass ior=10 wall=thin",

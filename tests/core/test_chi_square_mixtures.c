@@ -18,7 +18,7 @@ static const sampler_case cases[] = {
     {"ggx alpha=.2 kd=.5 ks=.3,.5,.7", .5, 4},
     {"ggx alpha=.4 kd=.2 ior=1.5 sampling=ndf", .3, 5},
     {"metallic_roughness roughness=.3", .8, 1},
-    {"metallic_roughness roughness=.6 metallic=.5", .2, 2},
+    {"metallic_roughness roughness=.6 diffuse=burley", .2, 2},
     {"metallic_roughness metallic=1 roughness=.7", .5, 3},
 };
 
