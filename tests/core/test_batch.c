@@ -31,6 +31,7 @@ static const recorded materials[] = {
     {"ggx alpha=.2", UINT64_C(0x67a3997d0df27190)},
     {"ggx alpha_x=.1 alpha_y=.4 ior=1.5 kd=.5", UINT64_C(0x9f362c7a94cade60)},
     {"glass tint=.9,.8,.7", UINT64_C(0x35848d99a3d22cd5)},
+    {"metallic_roughness roughness=.6 diffuse=burley", UINT64_C(0xc8b28bbabbdfe7b0)},
     {"metallic_roughness roughness=.4 metallic=.3", UINT64_C(0x5367343581f2cdcf)},
 };
 enum { N_MATERIALS = sizeof materials/sizeof materials[0] };
