@@ -100,6 +100,30 @@ static void eval_and_pdf_are_finite(void **state)
         }
 }
 
+/* The Jacobian 4 wo.wm of a reflection is 2 |wi + wo|, at least 2 (cos_i + cos_o), and D is largest at the normal: a
+ * density beyond that is a half vector lost to rounding, between directions that are nearly opposite. */
+static void densities_of_reflected_normals_are_bounded(void **state)
+{
+    (void)state;
+    static const char *const all_normals[] = {"phong exponent=1e6", "ggx alpha=1e-4 sampling=ndf",
+                                              "beckmann alpha=.01 sampling=ndf"};
+    for (int s = 0; s < 3; s++)
+        for (int is_double = 0; is_double < 2; is_double++) {
+            const any_bsdf bsdf = any_bsdf_of(all_normals[s], is_double);
+            const double peak = any_terms(&bsdf, (double[3]){0, 0, 1}).D;
+            for (int i = 0; i < N_DIRECTIONS*N_DIRECTIONS; i++) {
+                double wi[3], wo[3];
+                direction_of(i/N_DIRECTIONS, wi);
+                direction_of(i%N_DIRECTIONS, wo);
+                const double pdf = any_pdf(&bsdf, wi, wo);
+                const double bound = peak/(2*(height(&bsdf, wi) + height(&bsdf, wo)));
+                if (pdf > 0 && !(pdf <= bound*(1 + 8*any_epsilon(&bsdf))))
+                    fail_msg("%s, wi (%a, %a, %a), wo (%a, %a, %a): pdf %a above %a", all_normals[s], wi[0], wi[1],
+                             wi[2], wo[0], wo[1], wo[2], pdf, bound);
+            }
+        }
+}
+
 static void check_draw(const any_bsdf *bsdf, const double wo[3], const double u[3])
 {
     const facet_sample64 s = any_sample(bsdf, wo, u);
@@ -174,6 +198,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(eval_and_pdf_are_finite),
+        cmocka_unit_test(densities_of_reflected_normals_are_bounded),
         cmocka_unit_test(samples_are_finite),
         cmocka_unit_test(terms_are_finite),
         cmocka_unit_test(visible_surfaces_give_samples),
