@@ -34,11 +34,16 @@ void render_settings_defaults(render_settings *settings)
     *settings = (render_settings){.width = 960, .height = 540, .spp = 64, .depth = 8};
 }
 
-static double now(void)
+static double read_clock(clockid_t clock)
 {
     struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
+    clock_gettime(clock, &t);
     return (double)t.tv_sec + 1e-9*(double)t.tv_nsec;
+}
+
+static double now(void)
+{
+    return read_clock(CLOCK_MONOTONIC);
 }
 
 /* A thread_pool_job: all samples of this pass in one tile. */
@@ -216,10 +221,11 @@ facet_status render(const scene *s, const render_settings *settings, render_resu
         job_destroy(&j);
         return facet_error_set(why, status, "threads", "cannot start %u threads", n_threads);
     }
-    const double start = now();
+    const double start = now(), start_cpu = read_clock(CLOCK_PROCESS_CPUTIME_ID);
     render_result made = {.setup_seconds = start - begin, .isa = tracer_isa(j.context.tracer)};
     made.spp = run_passes(&j, pool, &r, start, &made.noise);
     made.seconds = now() - start;
+    made.cpu_seconds = read_clock(CLOCK_PROCESS_CPUTIME_ID) - start_cpu;
     made.is_complete = made.spp == r.spp;
     thread_pool_destroy(pool);
     collect_counts(&j, &made);

@@ -68,6 +68,7 @@ typedef struct render_result {
     uint64_t n_bad;          /* samples that were NaN or infinite */
     bad_sample bad[RENDER_MAX_REPORTED];
     double seconds;          /* rendering alone, wall clock */
+    double cpu_seconds;   /* of the whole process while rendering */
     double setup_seconds;    /* acceleration structure and light tables */
     double noise;            /* as in render_progress */
     const char *isa;         /* what Embree used; static storage */

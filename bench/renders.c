@@ -1,0 +1,310 @@
+/* renders.c: paths and rays per second on three scenes, and how near that is to Embree's own rate.
+ *
+ *     renders [--csv FILE] [--quick]
+ *
+ * The scenes are boxes open to the front with one square light: `spheres` (12 triangles, a rough metal and a
+ * smooth glass sphere), `70k` (a displaced ball, 69,324 triangles) and `2M` (eight of them, 2,160,012).  Each is
+ * rendered at 512x512, depth 8, on one thread and on two in turn; the rates are per second of CPU time of one
+ * thread, the last column the ratio of wall times; medians of five runs.
+ *
+ * The limit: every ray of a one-thread run with one sample per pixel is recorded at the tracer's interface (the
+ * linker puts the recorder between; see CMakeLists.txt) and then traced again alone, in the same order, closest
+ * hits and shadow rays apart.  Their time per ray, times the rays of the run, is the share of the run that is
+ * spent inside Embree; the run's time over it is how far the renderer is from a renderer that only traces.
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#include "render/geometry.h"
+#include "render/render.h"
+#include "render/scene.h"
+#include "render/surface.h"
+#include "render/tracer.h"
+
+enum { SIZE = 512, RUNS = 5, MOST_RECORDED = 1 << 21 };
+
+/* ---- recording -------------------------------------------------------------------------------- */
+
+typedef struct ray_log {
+    ray *rays;
+    size_t n;
+} ray_log;
+
+static ray_log closest, shadow;
+static bool is_recording;
+
+bool __real_tracer_intersect(const tracer *t, const ray *r, hit *found);
+bool __real_tracer_occluded(const tracer *t, const ray *r);
+bool __wrap_tracer_intersect(const tracer *t, const ray *r, hit *found);
+bool __wrap_tracer_occluded(const tracer *t, const ray *r);
+
+static void record(ray_log *log, const ray *r)
+{
+    if (log->n < MOST_RECORDED) log->rays[log->n++] = *r;
+}
+
+bool __wrap_tracer_intersect(const tracer *t, const ray *r, hit *found)
+{
+    if (is_recording) record(&closest, r);
+    return __real_tracer_intersect(t, r, found);
+}
+
+bool __wrap_tracer_occluded(const tracer *t, const ray *r)
+{
+    if (is_recording) record(&shadow, r);
+    return __real_tracer_occluded(t, r);
+}
+
+/* ---- scenes ----------------------------------------------------------------------------------- */
+
+static void check(facet_status status, const char *what)
+{
+    if (status == FACET_OK) return;
+    fprintf(stderr, "renders: %s: %s\n", what, facet_status_string(status));
+    exit(4);
+}
+
+static void *allocate(size_t n, size_t size)
+{
+    void *p = calloc(n, size);
+    if (!p) check(FACET_NO_MEMORY, "scene");
+    return p;
+}
+
+static size_t add_material(scene *s, const char *spec, float emission)
+{
+    material m;
+    facet_material described;
+    facet_error why = {.text = ""};
+    check(material_default(spec, &m), spec);
+    check(facet_material_parse(spec, &described, &why), why.text);
+    check(facet_bsdf_prepare(&described, &m.bsdf, &why), why.text);
+    m.kind = SURFACE_BSDF;
+    for (int k = 0; k < 3; k++) m.emission[k] = emission;
+    size_t index;
+    check(scene_add_material(s, &m, &index), spec);
+    return index;
+}
+
+static void add_mesh(scene *s, mesh *m)
+{
+    instance in = {.to_world = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
+    check(scene_add_mesh(s, m, &in.mesh), "mesh");
+    check(scene_add_instance(s, &in, NULL), "instance");
+}
+
+/* Two triangles over four corners in order. */
+static void add_quad(scene *s, size_t material_index, const float corners[4][3])
+{
+    mesh m = {.n_vertices = 4, .n_triangles = 2, .material = material_index};
+    m.positions = allocate(4, sizeof *m.positions);
+    m.triangles = allocate(2, sizeof *m.triangles);
+    memcpy(m.positions, corners, 4*sizeof *m.positions);
+    const uint32_t triangles[2][3] = {{0, 1, 2}, {0, 2, 3}};
+    memcpy(m.triangles, triangles, sizeof triangles);
+    add_mesh(s, &m);
+}
+
+/* Box x in [-1,1], y in [0,2], z in [-1,1], front open, and a light of 0.5 x 0.5 a millimetre under its ceiling. */
+static scene *add_box(void)
+{
+    scene *s = scene_create();
+    if (!s) check(FACET_NO_MEMORY, "scene");
+    const size_t grey = add_material(s, "lambert kd=.725,.71,.68", 0),
+                 red = add_material(s, "lambert kd=.63,.065,.05", 0),
+                 green = add_material(s, "lambert kd=.14,.45,.091", 0), light = add_material(s, "lambert kd=0", 15);
+    add_quad(s, grey, (const float[4][3]){{-1, 0, 1}, {1, 0, 1}, {1, 0, -1}, {-1, 0, -1}});
+    add_quad(s, grey, (const float[4][3]){{-1, 2, -1}, {1, 2, -1}, {1, 2, 1}, {-1, 2, 1}});
+    add_quad(s, grey, (const float[4][3]){{-1, 0, -1}, {1, 0, -1}, {1, 2, -1}, {-1, 2, -1}});
+    add_quad(s, red, (const float[4][3]){{-1, 0, 1}, {-1, 0, -1}, {-1, 2, -1}, {-1, 2, 1}});
+    add_quad(s, green, (const float[4][3]){{1, 0, -1}, {1, 0, 1}, {1, 2, 1}, {1, 2, -1}});
+    add_quad(s, light,
+             (const float[4][3]){
+                 {-.25f, 1.999f, -.25f}, {.25f, 1.999f, -.25f}, {.25f, 1.999f, .25f}, {-.25f, 1.999f, .25f}});
+    camera cam = {
+        .name = allocate(2, 1), .to_world = {{1, 0, 0, 0}, {0, 1, 0, 1}, {0, 0, 1, 3.9f}}, .yfov = 39*PI/180};
+    cam.name[0] = 'c';
+    check(scene_add_camera(s, &cam, NULL), "camera");
+    return s;
+}
+
+static scene *spheres_scene(void)
+{
+    scene *s = add_box();
+    const sphere metal = {{-.45f, .4f, -.3f}, .4f, add_material(s, "ggx alpha=.09 ks=.9", 0)};
+    const sphere glass = {{.45f, .4f, .3f}, .4f, add_material(s, "glass ior=1.5", 0)};
+    check(scene_add_sphere(s, &metal, NULL), "sphere");
+    check(scene_add_sphere(s, &glass, NULL), "sphere");
+    return s;
+}
+
+/* A ball with bumps: a cube of six n x n grids blown up to the sphere, 12 n^2 triangles. */
+static void add_ball(scene *s, size_t material_index, real3 center, float radius, uint32_t n)
+{
+    const uint32_t side = n + 1;
+    mesh m = {.n_vertices = 6*side*side, .n_triangles = 12*n*n, .material = material_index};
+    m.positions = allocate(m.n_vertices, sizeof *m.positions);
+    m.triangles = allocate(m.n_triangles, sizeof *m.triangles);
+    size_t v = 0, t = 0;
+    for (uint32_t face = 0; face < 6; face++) {
+        const uint32_t axis = face/2, first = face*side*side;
+        for (uint32_t j = 0; j <= n; j++)
+            for (uint32_t i = 0; i <= n; i++) {
+                float p[3];
+                p[axis] = face & 1 ? 1.0f : -1.0f;
+                p[(axis + 1)%3] = (2*(float)i/(float)n - 1)*p[axis];
+                p[(axis + 2)%3] = 2*(float)j/(float)n - 1;
+                const real3 d = normalize3(vector_of(p));
+                const float bump = 1 + 0.04f*sinf(17*d.x)*sinf(19*d.y)*sinf(23*d.z);
+                const real3 at = madd3(center, radius*bump, d);
+                m.positions[v][0] = at.x;
+                m.positions[v][1] = at.y;
+                m.positions[v++][2] = at.z;
+            }
+        for (uint32_t j = 0; j < n; j++)
+            for (uint32_t i = 0; i < n; i++) {
+                const uint32_t a = first + j*side + i, quad[4] = {a, a + 1, a + 1 + side, a + side};
+                memcpy(m.triangles[t++], (const uint32_t[3]){quad[0], quad[1], quad[2]}, sizeof m.triangles[0]);
+                memcpy(m.triangles[t++], (const uint32_t[3]){quad[0], quad[2], quad[3]}, sizeof m.triangles[0]);
+            }
+    }
+    add_mesh(s, &m);
+}
+
+static scene *one_ball_scene(void)
+{
+    scene *s = add_box();
+    add_ball(s, add_material(s, "lambert kd=.7,.6,.4", 0), make3(0, .8f, 0), .7f, 76);
+    return s;
+}
+
+static scene *eight_balls_scene(void)
+{
+    scene *s = add_box();
+    for (int i = 0; i < 8; i++) {
+        const real3 center = make3(i & 1 ? .45f : -.45f, i & 2 ? 1.4f : .5f, i & 4 ? .45f : -.45f);
+        add_ball(s, add_material(s, "lambert kd=.7,.6,.4", 0), center, .4f, 150);
+    }
+    return s;
+}
+
+/* ---- timing ----------------------------------------------------------------------------------- */
+
+static double process_seconds(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
+    return (double)t.tv_sec + 1e-9*(double)t.tv_nsec;
+}
+
+static int compare_doubles(const void *a, const void *b)
+{
+    const double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+static double median(double *values, size_t n)
+{
+    qsort(values, n, sizeof *values, compare_doubles);
+    return values[n/2];
+}
+
+static render_result run(const scene *s, uint32_t spp, uint32_t n_threads)
+{
+    render_settings settings;
+    render_settings_defaults(&settings);
+    settings.width = settings.height = SIZE;
+    settings.spp = spp;
+    settings.n_threads = n_threads;
+    render_result result;
+    facet_error why = {.text = ""};
+    check(render(s, &settings, &result, &why), why.text);
+    if (result.n_bad) check(FACET_BAD_VALUE, "a sample was not finite");
+    render_result_destroy(&result);
+    return result;
+}
+
+/* CPU nanoseconds per ray of a log, traced alone: the median of the runs. */
+static double replay(const tracer *t, const ray_log *log, bool is_shadow)
+{
+    double ns[RUNS];
+    volatile unsigned n_hits = 0; /* keeps the calls */
+    for (int i = 0; i < RUNS; i++) {
+        const double start = process_seconds();
+        unsigned n = 0;
+        hit found;
+        for (size_t k = 0; k < log->n; k++)
+            n += is_shadow ? tracer_occluded(t, &log->rays[k]) : tracer_intersect(t, &log->rays[k], &found);
+        n_hits += n;
+        ns[i] = 1e9*(process_seconds() - start)/(double)(log->n ? log->n : 1);
+    }
+    return median(ns, RUNS);
+}
+
+static void measure(const char *name, scene *(*make)(void), uint32_t spp, FILE *csv)
+{
+    scene *s = make();
+    size_t n_triangles = 0;
+    for (size_t i = 0; i < s->n_meshes; i++) n_triangles += s->meshes[i].n_triangles;
+    double cpu[RUNS], ratios[RUNS];
+    render_result one = {.n_paths = 0};
+    for (int i = 0; i < RUNS; i++) { /* one and two threads in turn, so that a slow spell meets both */
+        one = run(s, spp, 1);
+        cpu[i] = one.cpu_seconds;
+        ratios[i] = one.seconds/run(s, spp, 2).seconds;
+    }
+    const double seconds = median(cpu, RUNS), scaling = median(ratios, RUNS);
+
+    closest.n = shadow.n = 0;
+    is_recording = true;
+    run(s, 1, 1);
+    is_recording = false;
+    tracer *alone;
+    facet_error why = {.text = ""};
+    check(tracer_create(s, NULL, 1, surface_opacity, s, &alone, &why), why.text);
+    tracer_prepare_thread();
+    const double closest_ns = replay(alone, &closest, false), shadow_ns = replay(alone, &shadow, true);
+    tracer_destroy(alone);
+
+    const double n_rays = (double)one.n_rays, n_shadow = (double)one.n_shadow_rays, n_paths = (double)one.n_paths;
+    const double inside = 1e-9*(closest_ns*n_rays + shadow_ns*n_shadow);
+    printf("%-8s %9zu %8.3f %8.2f %6.2f %6.2f %8.1f %8.1f %7.0f%% %6.2f %6.2f\n", name, n_triangles,
+           1e-6*n_paths/seconds, 1e-6*(n_rays + n_shadow)/seconds, n_rays/n_paths, n_shadow/n_paths,
+           1e3/closest_ns, 1e3/shadow_ns, 100*inside/seconds, seconds/inside, scaling);
+    if (csv)
+        fprintf(csv, "%s,%zu,%.6g,%.6g,%.4g,%.4g,%.4g,%.4g,%.4g,%.4g,%s\n", name, n_triangles, n_paths/seconds,
+                (n_rays + n_shadow)/seconds, n_rays/n_paths, n_shadow/n_paths, 1e9/closest_ns, 1e9/shadow_ns,
+                inside/seconds, scaling, one.isa);
+    scene_destroy(s);
+}
+
+int main(int argc, char **argv)
+{
+    FILE *csv = NULL;
+    uint32_t spp = 16;
+    for (int i = 1; i < argc; i++) {
+        if (strcmp(argv[i], "--quick") == 0) spp = 2;
+        else if (strcmp(argv[i], "--csv") == 0 && i + 1 < argc && (csv = fopen(argv[++i], "w")))
+            fprintf(csv, "scene,triangles,paths_per_s,rays_per_s,closest_per_path,shadow_per_path,"
+                         "embree_closest_per_s,embree_shadow_per_s,share_in_embree,scaling_1_to_2,isa\n");
+        else {
+            fprintf(stderr, "usage: renders [--csv FILE] [--quick]\n");
+            return 2;
+        }
+    }
+    closest.rays = allocate(MOST_RECORDED, sizeof(ray));
+    shadow.rays = allocate(MOST_RECORDED, sizeof(ray));
+    printf("%-8s %9s %8s %8s %13s %17s %8s %6s %6s\n", "", "", "Mpaths/s", "Mrays/s", "rays per path", "Embree Mrays/s",
+           "share in", "time /", "1 to 2");
+    printf("%-8s %9s %8s %8s %6s %6s %8s %8s %8s %6s %6s\n", "scene", "triangles", "1 thread", "1 thread", "near",
+           "shadow", "near", "shadow", "Embree", "limit", "threads");
+    measure("spheres", spheres_scene, spp, csv);
+    measure("70k", one_ball_scene, spp, csv);
+    measure("2M", eight_balls_scene, spp, csv);
+    free(closest.rays);
+    free(shadow.rays);
+    return csv && fclose(csv) != 0 ? 4 : 0;
+}
