@@ -62,8 +62,10 @@ sample_point sampler_point(const sampler *s, sample_stream stream, uint32_t grou
         for (uint32_t d = 0; d < 3; d++) p.u[d] = hash_pair(base, d);
         return p;
     }
-    /* The same set in another order: Owen scrambling of the index, whose low bits decide the stratum. */
-    uint32_t index = scramble_reversed(stream.index, seed) & s->index_mask;
+    /* Another order, by Owen scrambling of the index itself: aligned runs stay runs, and so stratified, but which
+     * stratum a sample gets depends on all of its index.  Were it a function of the low digits alone, that of one
+     * group would determine that of every other, and no pixel would converge. */
+    uint32_t index = reverse_bits(scramble_reversed(reverse_bits(stream.index), seed)) & s->index_mask;
     for (int bit = 0; index; bit++, index >>= 1)
         if (index & 1)
             for (int d = 0; d < 3; d++) p.u[d] ^= columns[d][bit];
