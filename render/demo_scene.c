@@ -23,11 +23,11 @@ typedef struct ball {
 } ball;
 
 static const ball balls[] = {
-    {"plastic", "beckmann alpha=.14 ior=1.5 kd=.02,.13,.30", -4.15f, -1.7f, .07f, "ivory"},
+    {"plastic", "beckmann alpha=.12 ior=1.5 kd=.015,.11,.30", -4.15f, -1.7f, .07f, "ivory"},
     {"brushed-steel", "ggx alpha_x=.09 alpha_y=.38 ks=.62,.61,.59", -2.15f, 0, .035f, "ivory"},
     {"gold", "ggx alpha=.13 ks=.96,.68,.30", 0, 1.3f, 0, "ivory"},
-    {"glass", "glass ior=1.5", 2.15f, 0, -.035f, "orange"},
-    {"lacquer", "ggx alpha=.02 ior=1.55 kd=.42,.018,.022", 4.15f, -1.7f, -.07f, "ivory"},
+    {"lacquer", "ggx alpha=.03 ior=1.55 kd=.42,.018,.022", 2.15f, 0, -.035f, "ivory"},
+    {"glass", "glass ior=1.5", 4.15f, -1.7f, -.07f, "bronze"},
 };
 
 /* Other materials. */
@@ -37,7 +37,7 @@ typedef struct look {
 
 static const look looks[] = {
     {"ivory", "lambert kd=.72,.68,.60"},
-    {"orange", "phong exponent=60 ior=1.5 kd=.65,.22,.04"},
+    {"bronze", "ggx alpha=.1 ks=.86,.55,.26"},
     {"foot", "ggx alpha=.25 ior=1.5 kd=.035,.036,.04"},
     {"clay", "lambert kd=.55,.24,.14"},
     {"jade", "phong exponent=400 ior=1.5 kd=.06,.30,.16"},
@@ -67,10 +67,10 @@ typedef struct soft_box {
 } soft_box;
 
 static const soft_box soft_boxes[] = {
-    {"key light", {-6, 6.5f, 6}, {0, .5f, 0}, 2.2f, 2.2f, {15, 14.6f, 14}},
-    {"fill light", {8.5f, 4, 5}, {0, 1, 0}, 1.5f, 2.6f, {3.2f, 3.6f, 4.2f}},
-    {"top light", {0, 8, -2}, {0, 0, -.5f}, 5, 1.4f, {5, 5, 5}},
-    {"rim light", {8.5f, 4, -4}, {0, 1, 0}, .9f, 1.6f, {16, 10, 5}},
+    {"key light", {-7.5f, 7, 7}, {0, .5f, 0}, 4.4f, 4, {7.2f, 7, 6.7f}},
+    {"fill light", {9, 3.8f, 5}, {0, 1, 0}, 1.4f, 3.2f, {3.6f, 4.2f, 5.2f}},
+    {"top light", {0, 7.5f, -2}, {0, 0, -.8f}, 6, 2.2f, {4, 4, 4}},
+    {"rim light", {9.5f, 4, -3.5f}, {0, 1, 0}, 2, 2.4f, {8, 5, 2.6f}},
 };
 
 /* The shell, and its opening around the axis [turns of the outline]. */
@@ -241,7 +241,7 @@ static facet_status add_floor_texture(scene *s, size_t *index, facet_error *why)
 
 static facet_status add_backdrop(scene *s, facet_error *why)
 {
-    static const float color[3] = {.46f, .45f, .44f};
+    static const float color[3] = {.27f, .27f, .275f};
     size_t picture, index;
     const facet_status status = add_floor_texture(s, &picture, why);
     if (status) return status;
@@ -308,12 +308,12 @@ static facet_status add_sky(scene *s, facet_error *why)
 
 static facet_status add_camera(scene *s, facet_error *why)
 {
-    static const float eye[3] = {0, 4.6f, 20}, target[3] = {0, .95f, 0};
+    static const float eye[3] = {0, 4.9f, 20}, target[3] = {0, 1.0f, 0};
     static const char name[]  = "studio";
     const real3 back = normalize3(sub3(vector_of(eye), vector_of(target)));
     const real3 side = normalize3(make3(back.z, 0, -back.x)), up = cross3(back, side);
     camera c = {.to_world = {{side.x, up.x, back.x, eye[0]}, {side.y, up.y, back.y, eye[1]}, {side.z, up.z, back.z, eye[2]}},
-                .yfov     = .29f,
+                .yfov     = .27f,
                 .aspect   = 16/9.0f};
     c.name   = malloc(sizeof name);
     if (!c.name) return no_memory(why, name);
