@@ -63,8 +63,8 @@ size_t build_mesh(scene *s, size_t mat, const float (*positions)[3], size_t n_ve
 {
     const mesh m = {.n_vertices = n_vertices,
                     .n_triangles = n_triangles,
-                    .positions = copy_of(positions, n_vertices * sizeof *positions),
-                    .triangles = copy_of(triangles, n_triangles * sizeof *triangles),
+                    .positions = copy_of(positions, n_vertices*sizeof *positions),
+                    .triangles = copy_of(triangles, n_triangles*sizeof *triangles),
                     .material = mat};
     size_t index;
     assert_int_equal(scene_add_mesh(s, &m, &index), FACET_OK);
@@ -85,7 +85,7 @@ size_t build_quad(scene *s, size_t mat, const float corner[3], const float u[3],
     static const float uv[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     float positions[4][3];
     for (int i = 0; i < 4; i++)
-        for (int k = 0; k < 3; k++) positions[i][k] = corner[k] + uv[i][0] * u[k] + uv[i][1] * v[k];
+        for (int k = 0; k < 3; k++) positions[i][k] = corner[k] + uv[i][0]*u[k] + uv[i][1]*v[k];
     const size_t index = build_mesh(s, mat, (const float(*)[3])positions, 4, triangles, 2);
     s->meshes[index].uv[0] = copy_of(uv, sizeof uv);
     build_instance(s, index, NULL);
@@ -109,13 +109,13 @@ void build_disc(scene *s, size_t mat, const float center[3], float radius, unsig
     assert_true(positions && triangles);
     memcpy(positions[n], center, sizeof positions[n]);
     for (unsigned i = 0; i < n; i++) {
-        const double angle = 6.283185307179586 * i / n;
-        positions[i][0] = center[0] + radius * (float)cos(angle);
+        const double angle = 6.283185307179586*i/n;
+        positions[i][0] = center[0] + radius*(float)cos(angle);
         positions[i][1] = center[1];
-        positions[i][2] = center[2] + radius * (float)sin(angle);
+        positions[i][2] = center[2] + radius*(float)sin(angle);
         triangles[i][0] = n;
         triangles[i][1] = i; /* from +x to +z: clockwise seen from above */
-        triangles[i][2] = (i + 1) % n;
+        triangles[i][2] = (i + 1)%n;
     }
     build_instance(s, build_mesh(s, mat, (const float(*)[3])positions, n + 1, (const uint32_t(*)[3])triangles, n),
                    NULL);
@@ -125,24 +125,24 @@ void build_disc(scene *s, size_t mat, const float center[3], float radius, unsig
 
 size_t build_zone(scene *s, size_t mat, float cos_from, float cos_to, unsigned n_up, unsigned n_around, bool is_inward)
 {
-    const size_t n_vertices = (size_t)(n_up + 1) * n_around, n_triangles = (size_t)2 * n_up * n_around;
+    const size_t n_vertices = (size_t)(n_up + 1)*n_around, n_triangles = (size_t)2*n_up*n_around;
     float(*positions)[3] = calloc(n_vertices, sizeof *positions);
     uint32_t(*triangles)[3] = calloc(n_triangles, sizeof *triangles);
     assert_true(positions && triangles);
     for (unsigned j = 0; j <= n_up; j++)
         for (unsigned i = 0; i < n_around; i++) {
-            const double y = cos_from + ((double)cos_to - cos_from) * j / n_up, r = sqrt(fmax(1 - y * y, 0));
-            const double angle = 6.283185307179586 * i / n_around;
-            float *p = positions[j * n_around + i];
-            p[0] = (float)(r * cos(angle));
+            const double y = cos_from + ((double)cos_to - cos_from)*j/n_up, r = sqrt(fmax(1 - y*y, 0));
+            const double angle = 6.283185307179586*i/n_around;
+            float *p = positions[j*n_around + i];
+            p[0] = (float)(r*cos(angle));
             p[1] = (float)y;
-            p[2] = (float)(r * sin(angle));
+            p[2] = (float)(r*sin(angle));
         }
     size_t n = 0;
     const bool is_swapped = is_inward == (cos_from > cos_to);
     for (unsigned j = 0; j < n_up; j++)
         for (unsigned i = 0; i < n_around; i++) {
-            const uint32_t a = j * n_around + i, b = j * n_around + (i + 1) % n_around, c = a + n_around,
+            const uint32_t a = j*n_around + i, b = j*n_around + (i + 1)%n_around, c = a + n_around,
                            d = b + n_around;
             const uint32_t two[2][3] = {{a, is_swapped ? c : b, is_swapped ? b : c},
                                         {b, is_swapped ? c : d, is_swapped ? d : c}};
@@ -189,7 +189,7 @@ void build_orthographic(scene *s, const float eye[3], const float target[3], flo
 
 size_t build_texture(scene *s, size_t width, size_t height, const unsigned char *rgba, bool is_nearest)
 {
-    const image picture = {width, height, 4, PIXEL_U8, copy_of(rgba, 4 * width * height)};
+    const image picture = {width, height, 4, PIXEL_U8, copy_of(rgba, 4*width*height)};
     texture t = {.is_nearest = is_nearest};
     size_t index;
     assert_int_equal(scene_add_image(s, &picture, &t.image), FACET_OK);
@@ -199,7 +199,7 @@ size_t build_texture(scene *s, size_t width, size_t height, const unsigned char 
 
 void build_sky(scene *s, size_t width, size_t height, const float *texels)
 {
-    s->environment.map = (image){width, height, 3, PIXEL_F32, copy_of(texels, 3 * width * height * sizeof *texels)};
+    s->environment.map = (image){width, height, 3, PIXEL_F32, copy_of(texels, 3*width*height*sizeof *texels)};
     for (int k = 0; k < 3; k++) s->environment.scale[k] = 1;
 }
 
@@ -209,7 +209,7 @@ render_settings random_settings(size_t width, size_t height, uint32_t spp)
     render_settings_defaults(&r);
     r.width = width;
     r.height = height;
-    r.spp = spp / SAMPLE_DIVISOR < 2 ? 2 : spp / SAMPLE_DIVISOR;
+    r.spp = spp/SAMPLE_DIVISOR < 2 ? 2 : spp/SAMPLE_DIVISOR;
     r.sampler = SAMPLER_RANDOM;
     r.n_threads = 2;
     r.seed = 1;
@@ -223,24 +223,24 @@ estimate measure(const scene *s, const render_settings *settings)
     if (render(s, settings, &result, &why)) fail_msg("render: %s: %s", why.place, why.text);
     assert_int_equal(result.n_bad, 0);
     const float *pixels = result.picture.pixels;
-    const size_t n_pixels = result.picture.width * result.picture.height;
+    const size_t n_pixels = result.picture.width*result.picture.height;
     estimate e = {0, 0};
-    for (size_t i = 0; i < n_pixels; i++) e.mean += (double)luminance(vector_of(pixels + 3 * i)) / (double)n_pixels;
-    if (result.noise > 0) e.error = result.noise * e.mean / sqrt((double)n_pixels);
+    for (size_t i = 0; i < n_pixels; i++) e.mean += (double)luminance(vector_of(pixels + 3*i))/(double)n_pixels;
+    if (result.noise > 0) e.error = result.noise*e.mean/sqrt((double)n_pixels);
     render_result_destroy(&result);
     return e;
 }
 
 bool estimate_agrees(estimate e, double truth)
 {
-    return fabs(e.mean - truth) <= 4 * e.error + 2e-5 * fabs(truth);
+    return fabs(e.mean - truth) <= 4*e.error + 2e-5*fabs(truth);
 }
 
 void expect_estimate(const char *what, estimate e, double truth)
 {
     print_message("  %-44s %.6g +- %.2g, truth %.6g, ratio %.5f\n", what, e.mean, e.error, truth,
-                  truth != 0 ? e.mean / truth : 1.0);
+                  truth != 0 ? e.mean/truth : 1.0);
     if (!estimate_agrees(e, truth)) fail_msg("%s: %.8g +- %.3g is not %.8g", what, e.mean, e.error, truth);
-    if (e.error > 0.00125 * sqrt(SAMPLE_DIVISOR) * fabs(truth))
+    if (e.error > 0.00125*sqrt(SAMPLE_DIVISOR)*fabs(truth))
         fail_msg("%s: the standard error %.3g is too large for the claim", what, e.error);
 }

@@ -26,8 +26,8 @@ static const float origin[3] = {0, 0, 0};
  * over which no radiance here varies by 1e-6 of itself.  The view is oblique, below the lights. */
 static void build_plane_and_view(scene *s, size_t mat, float half)
 {
-    build_quad(s, mat, (const float[3]){-half, 0, half}, (const float[3]){2 * half, 0, 0},
-               (const float[3]){0, 0, -2 * half});
+    build_quad(s, mat, (const float[3]){-half, 0, half}, (const float[3]){2*half, 0, 0},
+               (const float[3]){0, 0, -2*half});
     build_orthographic(s, (const float[3]){4, 2, 0}, origin, 1e-4f);
 }
 
@@ -70,7 +70,7 @@ static void inside_a_glowing_sphere_the_series_of_reflections_is_complete(void *
             r.depth = 1000;
             r.strategy = how;
             snprintf(name, sizeof name, "closed sphere, albedo %g, %s", albedos[i], strategy_names[how]);
-            expect_estimate(name, measure(s, &r), 1 / (1 - albedos[i]));
+            expect_estimate(name, measure(s, &r), 1/(1 - albedos[i]));
             scene_destroy(s);
         }
 }
@@ -80,24 +80,24 @@ static void inside_a_glowing_sphere_the_series_of_reflections_is_complete(void *
  * D_v(m) = G1(o) max(0, o.m) D(m)/cos_o; the integral over m = (tan, phi) of the hemisphere. */
 static double ggx_lambda(double alpha, double cosine)
 {
-    const double tan2 = (1 - cosine * cosine) / (cosine * cosine);
-    return 0.5 * (sqrt(1 + alpha * alpha * tan2) - 1);
+    const double tan2 = (1 - cosine*cosine)/(cosine*cosine);
+    return 0.5*(sqrt(1 + alpha*alpha*tan2) - 1);
 }
 
 static double ggx_albedo(double alpha, double cos_o)
 {
-    const quadrature radial = gauss_legendre(200, 0, 1), turn = periodic_rule(400, 0, 2 * pi);
-    const double o[3] = {sqrt(1 - cos_o * cos_o), 0, cos_o};
+    const quadrature radial = gauss_legendre(200, 0, 1), turn = periodic_rule(400, 0, 2*pi);
+    const double o[3] = {sqrt(1 - cos_o*cos_o), 0, cos_o};
     double sum = 0;
     for (int i = 0; i < radial.n; i++) {
         /* xi = P(tan < t): D(m) cos_m dm = dxi dphi/(2 pi); tan = alpha sqrt(xi/(1 - xi)). */
-        const double t = alpha * sqrt(radial.x[i] / (1 - radial.x[i])), z = 1 / sqrt(1 + t * t);
+        const double t = alpha*sqrt(radial.x[i]/(1 - radial.x[i])), z = 1/sqrt(1 + t*t);
         for (int j = 0; j < turn.n; j++) {
-            const double m[3] = {t * z * cos(turn.x[j]), t * z * sin(turn.x[j]), z};
-            const double om = o[0] * m[0] + o[2] * m[2], cos_i = 2 * om * m[2] - o[2];
+            const double m[3] = {t*z*cos(turn.x[j]), t*z*sin(turn.x[j]), z};
+            const double om = o[0]*m[0] + o[2]*m[2], cos_i = 2*om*m[2] - o[2];
             if (om <= 0 || cos_i <= 0) continue;
-            const double G2 = 1 / (1 + ggx_lambda(alpha, cos_i) + ggx_lambda(alpha, cos_o));
-            sum += radial.w[i] * turn.w[j] / (2 * pi) * om / (z * cos_o) * G2;
+            const double G2 = 1/(1 + ggx_lambda(alpha, cos_i) + ggx_lambda(alpha, cos_o));
+            sum += radial.w[i]*turn.w[j]/(2*pi)*om/(z*cos_o)*G2;
         }
     }
     return sum;
@@ -110,8 +110,8 @@ static void a_ggx_sphere_under_a_white_sky_shows_its_albedo(void **state)
     (void)state;
     const double alpha = 0.6;
     const quadrature cosine = gauss_legendre(24, 0, 1);
-    double truth = 1 - pi / 4;
-    for (int i = 0; i < cosine.n; i++) truth += pi / 4 * cosine.w[i] * 2 * cosine.x[i] * ggx_albedo(alpha, cosine.x[i]);
+    double truth = 1 - pi/4;
+    for (int i = 0; i < cosine.n; i++) truth += pi/4*cosine.w[i]*2*cosine.x[i]*ggx_albedo(alpha, cosine.x[i]);
     for (strategy how = STRATEGY_MIS; how <= STRATEGY_IMPLICIT; how++) {
         scene *s = build_scene();
         build_sphere(s, build_material(s, "ggx alpha=.6 ks=1 kd=0", 0, false), 0, 0, 0, 1);
@@ -133,9 +133,9 @@ static void a_ggx_sphere_under_a_white_sky_shows_its_albedo(void **state)
  * and the element [lambert1760]. */
 static double polygon_factor(double radius, double height, unsigned n)
 {
-    const double half = radius * sin(pi / n), apothem = radius * cos(pi / n);
-    const double slant = sqrt(apothem * apothem + height * height);
-    return n / (2 * pi) * 2 * atan(half / slant) * apothem / slant;
+    const double half = radius*sin(pi/n), apothem = radius*cos(pi/n);
+    const double slant = sqrt(apothem*apothem + height*height);
+    return n/(2*pi)*2*atan(half/slant)*apothem/slant;
 }
 
 enum { DISC_EDGES = 64 };
@@ -151,7 +151,7 @@ static scene *case_A(void)
 
 static double truth_A(void)
 {
-    return 0.8 * polygon_factor(1, 1, DISC_EDGES);
+    return 0.8*polygon_factor(1, 1, DISC_EDGES);
 }
 
 /* Case B: a closed sphere of albedo .7 with a black lamp on a cap that takes a tenth of its area.  In a sphere every
@@ -168,7 +168,7 @@ static scene *case_B(void)
 
 static double truth_B(void)
 {
-    return 0.7 * 0.1 / (1 - 0.7 * 0.9);
+    return 0.7*0.1/(1 - 0.7*0.9);
 }
 
 /* Case C: a glossy plane under a disc, seen from the camera: the integral of the scattering over the disc, by a
@@ -189,16 +189,16 @@ static double truth_C(void)
     facet_bsdf64 bsdf;
     assert_int_equal(facet_material_parse(spec_C, &m, NULL), FACET_OK);
     assert_int_equal(facet_bsdf64_prepare(&m, &bsdf, NULL), FACET_OK);
-    const quadrature radial = gauss_legendre(64, 0, .5), turn = periodic_rule(128, 0, 2 * pi);
-    const double wo[3] = {2 / sqrt(5), 0, 1 / sqrt(5)};
+    const quadrature radial = gauss_legendre(64, 0, .5), turn = periodic_rule(128, 0, 2*pi);
+    const double wo[3] = {2/sqrt(5), 0, 1/sqrt(5)};
     double sum = 0;
     for (int i = 0; i < radial.n; i++)
         for (int j = 0; j < turn.n; j++) {
-            const double x = -1 + radial.x[i] * cos(turn.x[j]), y = radial.x[i] * sin(turn.x[j]);
-            const double d2 = x * x + y * y + 1, d = sqrt(d2), wi[3] = {x / d, y / d, 1 / d};
+            const double x = -1 + radial.x[i]*cos(turn.x[j]), y = radial.x[i]*sin(turn.x[j]);
+            const double d2 = x*x + y*y + 1, d = sqrt(d2), wi[3] = {x/d, y/d, 1/d};
             double f[3];
             facet_bsdf64_eval(&bsdf, wi, wo, f);
-            sum += radial.w[i] * turn.w[j] * radial.x[i] * f[0] / (d * d2);
+            sum += radial.w[i]*turn.w[j]*radial.x[i]*f[0]/(d*d2);
         }
     return sum;
 }
@@ -242,7 +242,7 @@ static void a_sphere_light_obeys_the_inverse_square_of_its_centre(void **state)
     build_plane_and_view(s, build_material(s, "lambert kd=.5", 0, false), 1);
     build_sphere(s, build_material(s, "lambert kd=0", 2, false), -.8f, 1.5f, .5f, 1.2f);
     const double d2 = .64 + 2.25 + .25;
-    check_strategies("sphere light", s, .5 * 2 * 1.44 / d2 * 1.5 / sqrt(d2), (const uint32_t[3]){64, 64, 1200}, 8);
+    check_strategies("sphere light", s, .5*2*1.44/d2*1.5/sqrt(d2), (const uint32_t[3]){64, 64, 1200}, 8);
 }
 
 /* A plane that fills the view, under constant sky: L = kd. */
@@ -265,11 +265,11 @@ static void a_sky_map_lights_like_the_function_it_holds(void **state)
     for (int is_gradient = 0; is_gradient < 2; is_gradient++) {
         for (int y = 0; y < H; y++)
             for (int x = 0; x < W; x++)
-                for (int k = 0; k < 3; k++) texels[y][x][k] = is_gradient ? 1 + (float)cos(pi * (y + .5) / H) : 1;
+                for (int k = 0; k < 3; k++) texels[y][x][k] = is_gradient ? 1 + (float)cos(pi*(y + .5)/H) : 1;
         scene *s = build_scene();
         build_plane_and_view(s, build_material(s, "lambert kd=.6", 0, false), 1);
         build_sky(s, W, H, &texels[0][0][0]);
-        check_strategies(is_gradient ? "sky map 1 + y" : "sky map 1", s, is_gradient ? .6 * (1 + 2 / 3.0) : .6,
+        check_strategies(is_gradient ? "sky map 1 + y" : "sky map 1", s, is_gradient ? .6*(1 + 2/3.0) : .6,
                          (const uint32_t[3]){160, 1200, 160}, 8);
     }
 }
@@ -298,29 +298,29 @@ static void punctual_lights_obey_their_laws(void **state)
     spot.cos_inner = .9f;
     spot.cos_outer = .7f;
     punctual_light half_spot = spot; /* turned until the plane is seen at cosine .8, half way */
-    half_spot.direction[0] = .6f * .8f;
-    half_spot.direction[1] = -.8f * .8f;
+    half_spot.direction[0] = .6f*.8f;
+    half_spot.direction[1] = -.8f*.8f;
     half_spot.direction[2] = .6f;
     punctual_light past_spot = spot;
     past_spot.direction[0] = -.6f;
     const punctual_light sun = {.kind = LIGHT_DIRECTIONAL, .direction = {.6f, -.8f, 0}, .intensity = {3, 3, 3}};
     punctual_light low = point;
     low.position[1] = -1;
-    const double full = .5 / pi * 10 * .8 / 25;
+    const double full = .5/pi*10*.8/25;
     const struct {
         const char *name;
         const punctual_light *light;
         double truth;
     } cases[] = {{"point", &point, full},
                  {"spot, inside", &spot, full},
-                 {"spot, half way", &half_spot, full / 4},
+                 {"spot, half way", &half_spot, full/4},
                  {"spot, outside", &past_spot, 0},
-                 {"directional", &sun, .5 / pi * 3 * .8},
+                 {"directional", &sun, .5/pi*3*.8},
                  {"point below", &low, 0}};
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++)
+    for (size_t i = 0; i < sizeof cases/sizeof cases[0]; i++)
         for (strategy how = STRATEGY_MIS; how <= STRATEGY_IMPLICIT; how++) {
             const double L = lit_by(cases[i].light, how);
-            if (!(fabs(L - cases[i].truth) <= 2e-5 * full))
+            if (!(fabs(L - cases[i].truth) <= 2e-5*full))
                 fail_msg("%s, %s: %.8g is not %.8g", cases[i].name, strategy_names[how], L, cases[i].truth);
         }
 }
@@ -334,9 +334,9 @@ static void punctual_lights_obey_their_laws(void **state)
 
 static void cosine_direction(draws *d, double v[3])
 {
-    const double r2 = draw(d), phi = 2 * pi * draw(d);
-    v[0] = sqrt(r2) * cos(phi);
-    v[1] = sqrt(r2) * sin(phi);
+    const double r2 = draw(d), phi = 2*pi*draw(d);
+    v[0] = sqrt(r2)*cos(phi);
+    v[1] = sqrt(r2)*sin(phi);
     v[2] = sqrt(1 - r2);
 }
 
@@ -346,13 +346,13 @@ static double printed_A(draws *d)
     double C = 0;
     if (draw(d) > RR) return C;
     const double r2 = draw(d), d2 = r2 + 1,
-                 cosine = 1 / sqrt(d2); /* a uniform point of the unit disc; its azimuth is idle */
-    const double p_light = (1 / pi) * d2 / cosine;
-    C += .8 / pi * cosine / p_light;
+                 cosine = 1/sqrt(d2); /* a uniform point of the unit disc; its azimuth is idle */
+    const double p_light = (1/pi)*d2/cosine;
+    C += .8/pi*cosine/p_light;
     double wi[3];
     cosine_direction(d, wi);
-    const double f = .8 / pi * wi[2], p = wi[2] / pi * RR;
-    if (wi[0] * wi[0] + wi[1] * wi[1] <= wi[2] * wi[2]) C += f / p;
+    const double f = .8/pi*wi[2], p = wi[2]/pi*RR;
+    if (wi[0]*wi[0] + wi[1]*wi[1] <= wi[2]*wi[2]) C += f/p;
     return C;
 }
 
@@ -362,22 +362,22 @@ static double printed_B(draws *d)
     double C = 0, W = 1, P[3] = {0, 0, -1};
     while (draw(d) <= RR) {
         /* A uniform point of the cap: pdf 1/(.4 pi) by area; in a sphere cos_P cos_L/d^2 = 1/4. */
-        const double z = .8 + .2 * draw(d), phi = 2 * pi * draw(d), r = sqrt(1 - z * z);
-        const double to_light[3] = {r * cos(phi) - P[0], r * sin(phi) - P[1], z - P[2]};
-        const double d2 = to_light[0] * to_light[0] + to_light[1] * to_light[1] + to_light[2] * to_light[2];
-        const double cosine = .5 * sqrt(d2); /* of both ends: a chord makes equal angles with the sphere */
-        const double p_light = 1 / (.4 * pi) * d2 / cosine;
-        C += W * .7 / pi * cosine / p_light;
+        const double z = .8 + .2*draw(d), phi = 2*pi*draw(d), r = sqrt(1 - z*z);
+        const double to_light[3] = {r*cos(phi) - P[0], r*sin(phi) - P[1], z - P[2]};
+        const double d2 = to_light[0]*to_light[0] + to_light[1]*to_light[1] + to_light[2]*to_light[2];
+        const double cosine = .5*sqrt(d2); /* of both ends: a chord makes equal angles with the sphere */
+        const double p_light = 1/(.4*pi)*d2/cosine;
+        C += W*.7/pi*cosine/p_light;
         double local[3], wi[3];
         cosine_direction(d, local);
         /* Any frame around the inward normal -P. */
-        const double n[3] = {-P[0], -P[1], -P[2]}, s = n[2] >= 0 ? 1 : -1, a = -1 / (s + n[2]), b = n[0] * n[1] * a;
-        const double t[3] = {1 + s * n[0] * n[0] * a, s * b, -s * n[0]}, u[3] = {b, s + n[1] * n[1] * a, -n[1]};
-        for (int k = 0; k < 3; k++) wi[k] = local[0] * t[k] + local[1] * u[k] + local[2] * n[k];
-        const double f = .7 / pi * local[2], p = local[2] / pi * RR;
-        W *= f / p;
+        const double n[3] = {-P[0], -P[1], -P[2]}, s = n[2] >= 0 ? 1 : -1, a = -1/(s + n[2]), b = n[0]*n[1]*a;
+        const double t[3] = {1 + s*n[0]*n[0]*a, s*b, -s*n[0]}, u[3] = {b, s + n[1]*n[1]*a, -n[1]};
+        for (int k = 0; k < 3; k++) wi[k] = local[0]*t[k] + local[1]*u[k] + local[2]*n[k];
+        const double f = .7/pi*local[2], p = local[2]/pi*RR;
+        W *= f/p;
         double Q[3];
-        for (int k = 0; k < 3; k++) Q[k] = P[k] + 2 * local[2] * wi[k];
+        for (int k = 0; k < 3; k++) Q[k] = P[k] + 2*local[2]*wi[k];
         if (Q[2] > .8) return C + W;
         for (int k = 0; k < 3; k++) P[k] = Q[k];
     }
@@ -391,10 +391,10 @@ static estimate mean_of(double (*path)(draws *), int n)
     for (int i = 0; i < n; i++) {
         const double x = path(&d);
         sum += x;
-        squares += x * x;
+        squares += x*x;
     }
-    const double mean = sum / n;
-    return (estimate){mean, sqrt((squares / n - mean * mean) / (n - 1))};
+    const double mean = sum/n;
+    return (estimate){mean, sqrt((squares/n - mean*mean)/(n - 1))};
 }
 
 /* The check that the renderer passes refuses the printed algorithm, and allows the factor 1 + RR that theory gives
@@ -405,11 +405,11 @@ static void the_printed_algorithm_is_seen_to_be_wrong(void **state)
     const double truths[2] = {.4, truth_B()}; /* A with the true disc */
     double (*const paths[2])(draws *) = {printed_A, printed_B};
     for (int i = 0; i < 2; i++) {
-        const estimate e = mean_of(paths[i], 2000000 / SAMPLE_DIVISOR);
-        print_message("  as printed, case %c: %.4f(%.0f) of the truth\n", "AB"[i], e.mean / truths[i],
-                      1e4 * e.error / truths[i]);
+        const estimate e = mean_of(paths[i], 2000000/SAMPLE_DIVISOR);
+        print_message("  as printed, case %c: %.4f(%.0f) of the truth\n", "AB"[i], e.mean/truths[i],
+                      1e4*e.error/truths[i]);
         assert_false(estimate_agrees(e, truths[i]));
-        expect_estimate(i ? "as printed, B, against 1.8" : "as printed, A, against 1.8", e, (1 + RR) * truths[i]);
+        expect_estimate(i ? "as printed, B, against 1.8" : "as printed, A, against 1.8", e, (1 + RR)*truths[i]);
     }
 }
 

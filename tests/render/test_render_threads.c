@@ -67,10 +67,10 @@ static void any_number_of_threads_gives_the_same_bits(void **state)
         r.sampler = kind;
         r.n_threads = 1;
         image one = picture_of(s, &r);
-        for (size_t i = 0; i < sizeof counts / sizeof counts[0]; i++) {
+        for (size_t i = 0; i < sizeof counts/sizeof counts[0]; i++) {
             r.n_threads = counts[i];
             image many = picture_of(s, &r);
-            assert_memory_equal(one.pixels, many.pixels, 3 * sizeof(float) * r.width * r.height);
+            assert_memory_equal(one.pixels, many.pixels, 3*sizeof(float)*r.width*r.height);
             image_destroy(&many);
         }
         image_destroy(&one);
@@ -87,7 +87,7 @@ static void a_crop_equals_its_part_of_the_picture(void **state)
     render_settings r = settings();
     r.n_threads = 3;
     image whole = picture_of(s, &r);
-    for (size_t i = 0; i < sizeof crops / sizeof crops[0]; i++) {
+    for (size_t i = 0; i < sizeof crops/sizeof crops[0]; i++) {
         r.crop_x = crops[i][0];
         r.crop_y = crops[i][1];
         r.crop_w = crops[i][2];
@@ -96,9 +96,9 @@ static void a_crop_equals_its_part_of_the_picture(void **state)
         assert_int_equal(part.width, r.crop_w);
         assert_int_equal(part.height, r.crop_h);
         for (size_t y = 0; y < r.crop_h; y++)
-            assert_memory_equal((const float *)part.pixels + 3 * y * r.crop_w,
-                                (const float *)whole.pixels + 3 * ((r.crop_y + y) * r.width + r.crop_x),
-                                3 * sizeof(float) * r.crop_w);
+            assert_memory_equal((const float *)part.pixels + 3*y*r.crop_w,
+                                (const float *)whole.pixels + 3*((r.crop_y + y)*r.width + r.crop_x),
+                                3*sizeof(float)*r.crop_w);
         image_destroy(&part);
     }
     image_destroy(&whole);
@@ -114,7 +114,7 @@ static void another_seed_gives_other_bits(void **state)
     image a = picture_of(s, &r);
     r.seed = 4;
     image b = picture_of(s, &r);
-    assert_memory_not_equal(a.pixels, b.pixels, 3 * sizeof(float) * r.width * r.height);
+    assert_memory_not_equal(a.pixels, b.pixels, 3*sizeof(float)*r.width*r.height);
     image_destroy(&a);
     image_destroy(&b);
     scene_destroy(s);
@@ -145,7 +145,7 @@ static void a_render_that_is_stopped_gives_the_picture_of_the_passes_done(void *
     assert_true(n_calls > 0);
     assert_false(result.is_complete);
     assert_true(result.spp < r.spp);
-    for (size_t i = 0; i < 3 * r.width * r.height; i++) assert_true(((const float *)result.picture.pixels)[i] >= 0);
+    for (size_t i = 0; i < 3*r.width*r.height; i++) assert_true(((const float *)result.picture.pixels)[i] >= 0);
     render_result_destroy(&result);
     r.progress = NULL;
     r.time_limit = 0.2;
@@ -189,11 +189,11 @@ static void pools_come_and_go(void **state)
     uint32_t n_started = 0;
     for (uint32_t round = 0; round < 50; round++) {
         thread_pool *pool = NULL;
-        t->n_threads = 1 + round % 7;
+        t->n_threads = 1 + round%7;
         n_started += t->n_threads;
         assert_int_equal(thread_pool_create(t->n_threads, count_thread, &pool), FACET_OK);
         assert_int_equal(thread_pool_size(pool), t->n_threads);
-        if (round % 3) { /* some pools never see a job */
+        if (round%3) { /* some pools never see a job */
             memset(t->times, 0, sizeof t->times);
             thread_pool_start(pool, count_piece, t, 100);
             while (!thread_pool_wait(pool, 10)) {}
@@ -215,11 +215,11 @@ static void many_small_jobs_do_each_piece_once(void **state)
     assert_non_null(t);
     t->n_threads = 4;
     assert_int_equal(thread_pool_create(4, NULL, &pool), FACET_OK);
-    const uint32_t n_jobs = 2000 / SAMPLE_DIVISOR;
+    const uint32_t n_jobs = 2000/SAMPLE_DIVISOR;
     uint32_t expected = 0;
     for (uint32_t job = 0; job < n_jobs; job++) {
-        thread_pool_start(pool, count_piece, t, job % 5);
-        expected += job % 5;
+        thread_pool_start(pool, count_piece, t, job%5);
+        expected += job%5;
         while (!thread_pool_wait(pool, 10)) {}
         assert_int_equal(__atomic_load_n(&t->n_done, __ATOMIC_RELAXED), expected);
     }
@@ -242,7 +242,7 @@ static void a_cancelled_job_ends_and_leaves_the_pool_usable(void **state)
     for (int round = 0; round < 100; round++) {
         memset(t->times, 0, sizeof t->times);
         thread_pool_start(pool, count_piece, t, MOST_PIECES);
-        if (round % 2) thread_pool_wait(pool, 1e-5);
+        if (round%2) thread_pool_wait(pool, 1e-5);
         thread_pool_cancel(pool);
         while (!thread_pool_wait(pool, 10)) {}
         for (uint32_t i = 0; i < MOST_PIECES; i++) assert_true(t->times[i] <= 1);

@@ -16,7 +16,7 @@
 #include "tests/chi_square.h"
 #include "tests/scene_builder.h"
 
-enum { SIZE = 32, BLOCKS = 4, SIDE = SIZE / BLOCKS };
+enum { SIZE = 32, BLOCKS = 4, SIDE = SIZE/BLOCKS };
 
 static const double pi = 3.14159265358979323846;
 
@@ -63,16 +63,16 @@ static scene *room(void)
 }
 
 typedef struct blocks {
-    estimate at[BLOCKS * BLOCKS];
+    estimate at[BLOCKS*BLOCKS];
 } blocks;
 
 static blocks measure_blocks(const scene *s, render_settings r)
 {
     blocks b = {0};
     r.crop_w = r.crop_h = SIDE;
-    for (size_t i = 0; i < BLOCKS * BLOCKS; i++) {
-        r.crop_x = i % BLOCKS * SIDE;
-        r.crop_y = i / BLOCKS * SIDE;
+    for (size_t i = 0; i < BLOCKS*BLOCKS; i++) {
+        r.crop_x = i%BLOCKS*SIDE;
+        r.crop_y = i/BLOCKS*SIDE;
         b.at[i] = measure(s, &r);
     }
     return b;
@@ -83,8 +83,8 @@ static double normal_bound(double level)
 {
     double low = 0, high = 10;
     for (int i = 0; i < 60; i++) {
-        const double middle = (low + high) / 2;
-        *(erfc(middle / sqrt(2)) > level ? &low : &high) = middle;
+        const double middle = (low + high)/2;
+        *(erfc(middle/sqrt(2)) > level ? &low : &high) = middle;
     }
     return high;
 }
@@ -92,20 +92,20 @@ static double normal_bound(double level)
 /* Fails if a block differs; also checks that the comparison would find 10 % in a block on average. */
 static void compare(const char *what, const blocks *a, const blocks *b, int n_comparisons)
 {
-    const double bound = normal_bound(sidak_level(0.01, n_comparisons * BLOCKS * BLOCKS));
+    const double bound = normal_bound(sidak_level(0.01, n_comparisons*BLOCKS*BLOCKS));
     double worst = 0, mean_a = 0, mean_b = 0, sensitivity = 0;
-    for (int i = 0; i < BLOCKS * BLOCKS; i++) {
+    for (int i = 0; i < BLOCKS*BLOCKS; i++) {
         const double error = hypot(a->at[i].error, b->at[i].error);
-        const double z = (a->at[i].mean - b->at[i].mean) / error;
+        const double z = (a->at[i].mean - b->at[i].mean)/error;
         if (fabs(z) > fabs(worst)) worst = z;
-        mean_a += a->at[i].mean / (BLOCKS * BLOCKS);
-        mean_b += b->at[i].mean / (BLOCKS * BLOCKS);
-        sensitivity += error / b->at[i].mean / (BLOCKS * BLOCKS);
+        mean_a += a->at[i].mean/(BLOCKS*BLOCKS);
+        mean_b += b->at[i].mean/(BLOCKS*BLOCKS);
+        sensitivity += error/b->at[i].mean/(BLOCKS*BLOCKS);
     }
     print_message("  %-28s %.5f %.5f, worst block %+.2f sigma of %.2f, sigma %.2f %%\n", what, mean_a, mean_b, worst,
-                  bound, 100 * sensitivity);
+                  bound, 100*sensitivity);
     assert_true(fabs(worst) <= bound);
-    assert_true(sensitivity <= 0.02 * sqrt(SAMPLE_DIVISOR));
+    assert_true(sensitivity <= 0.02*sqrt(SAMPLE_DIVISOR));
 }
 
 static void the_three_strategies_and_two_samplers_agree(void **state)
@@ -145,8 +145,8 @@ static void a_missing_bounce_is_found(void **state)
     const blocks less = measure_blocks(s, r);
     scene_destroy(s);
     int n_found = 0;
-    for (int i = 0; i < BLOCKS * BLOCKS; i++)
-        n_found += full.at[i].mean - less.at[i].mean > 4 * hypot(full.at[i].error, less.at[i].error);
+    for (int i = 0; i < BLOCKS*BLOCKS; i++)
+        n_found += full.at[i].mean - less.at[i].mean > 4*hypot(full.at[i].error, less.at[i].error);
     assert_true(n_found > BLOCKS);
 }
 
@@ -156,7 +156,7 @@ static void roulette_neither_adds_nor_takes_light(void **state)
 {
     (void)state;
     static const uint32_t depths[] = {0, 1, 3, 6, 20, 300};
-    for (size_t i = 0; i < sizeof depths / sizeof depths[0]; i++) {
+    for (size_t i = 0; i < sizeof depths/sizeof depths[0]; i++) {
         scene *s = build_scene();
         build_sphere(s, build_material(s, "lambert kd=.95", 1, true), 0, 0, 0, 1);
         build_camera(s, (const float[3]){0, 0, 0}, (const float[3]){1, .3f, .2f}, 1);
@@ -164,7 +164,7 @@ static void roulette_neither_adds_nor_takes_light(void **state)
         r.depth = depths[i];
         const estimate e = measure(s, &r);
         scene_destroy(s);
-        expect_estimate("albedo .95, up to so many events", e, (1 - pow(.95, depths[i] + 1.0)) / (1 - .95));
+        expect_estimate("albedo .95, up to so many events", e, (1 - pow(.95, depths[i] + 1.0))/(1 - .95));
     }
 }
 
@@ -176,7 +176,7 @@ static void glass_in_a_furnace_is_white(void **state)
     scene *s = build_scene();
     build_sphere(s, build_material(s, "glass ior=1.5", 0, false), 0, 0, 0, 1);
     for (int k = 0; k < 3; k++) s->environment.scale[k] = 1;
-    build_camera(s, (const float[3]){0, 0, 4}, (const float[3]){0, 0, 0}, (float)(0.45 * pi / 2));
+    build_camera(s, (const float[3]){0, 0, 4}, (const float[3]){0, 0, 0}, (float)(0.45*pi/2));
     render_settings r = random_settings(64, 64, 64);
     r.depth = 200;
     expect_estimate("glass sphere", measure(s, &r), 1);

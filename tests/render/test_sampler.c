@@ -1,0 +1,222 @@
+/* test_sampler.c: the numbers that place paths are well spread, uniform, independent of each other and repeatable.
+ *
+ * (0,2): of the first 2^k points each box of 2^-a by 2^-(k-a) holds exactly one.  [sobol67], [burley20].
+ * SPDX-License-Identifier: MIT */
+#include "render/sampler.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/chi_square.h"
+#include "tests/scene_builder.h"
+
+static sample_point point_of(const sampler *s, uint32_t x, uint32_t y, uint32_t index, uint32_t group)
+{
+    return sampler_point(s, sampler_start(s, x, y, index), group);
+}
+
+/* Boxes of all shapes for the first 2^k points in dimensions d and e; returns the number of boxes that do not hold
+ * exactly one. */
+static int misplaced(const sampler *s, uint32_t x, uint32_t group, int k, int d, int e)
+{
+    enum { MOST = 1024 };
+    int n_wrong = 0;
+    for (int a = 0; a <= k; a++) {
+        uint8_t count[MOST] = {0};
+        for (uint32_t i = 0; i < 1u << k; i++) {
+            const sample_point p = point_of(s, x, 5, i, group);
+            const uint64_t column = (uint64_t)p.u[d] >> (32 - a), row = (uint64_t)p.u[e] >> (32 - (k - a));
+            count[column << (k - a) | row]++;
+        }
+        for (uint32_t i = 0; i < 1u << k; i++) n_wrong += count[i] != 1;
+    }
+    return n_wrong;
+}
+
+/* Shuffling the order and scrambling the digits keep the strata: of the whole set in the first two dimensions, and of
+ * each dimension alone.  The third together with another is no (0,2) sequence: it
+ * is checked alone. */
+static void each_group_is_stratified(void **state)
+{
+    (void)state;
+    for (int k = 0; k <= 10; k++) {
+        const sampler s = sampler_create(SAMPLER_SOBOL, 17, 1u << k);
+        for (uint32_t group = 0; group < 8; group++) assert_int_equal(misplaced(&s, group*7, group, k, 0, 1), 0);
+        for (int d = 0; d < 3; d++) {
+            uint8_t count[1024] = {0};
+            for (uint32_t i = 0; i < 1u << k; i++) count[(uint64_t)point_of(&s, 1, 2, i, 3).u[d] >> (32 - k)]++;
+            for (uint32_t i = 0; i < 1u << k; i++) assert_int_equal(count[i], 1);
+        }
+    }
+}
+
+/* The shuffle keeps strata of the order, too: each aligned run of 2^j samples is itself stratified, so that a picture
+ * that is stopped early is as good as one that was meant to be short. */
+static void each_aligned_run_is_stratified(void **state)
+{
+    (void)state;
+    const sampler s = sampler_create(SAMPLER_SOBOL, 17, 256);
+    for (uint32_t j = 1; j <= 8; j++)
+        for (uint32_t start = 0; start < 256; start += 1u << j) {
+            uint8_t count[256] = {0};
+            for (uint32_t i = 0; i < 1u << j; i++) count[point_of(&s, 3, 4, start + i, 2).u[0] >> (32 - j)]++;
+            for (uint32_t i = 0; i < 1u << j; i++) assert_int_equal(count[i], 1);
+        }
+}
+
+/* Without scrambling the sets of two pixels would be equal up to order: their points differ in the last digits. */
+static void scrambling_moves_points_inside_their_strata(void **state)
+{
+    (void)state;
+    const sampler s = sampler_create(SAMPLER_SOBOL, 1, 16);
+    int n_equal = 0;
+    for (uint32_t i = 0; i < 16; i++)
+        for (uint32_t j = 0; j < 16; j++) n_equal += point_of(&s, 0, 0, i, 0).u[0] == point_of(&s, 1, 0, j, 0).u[0];
+    assert_int_equal(n_equal, 0);
+}
+
+/* Over pixels, each number of each group is uniform: chi-square over 64 cells. */
+static void numbers_are_uniform(void **state)
+{
+    (void)state;
+    enum { CELLS = 64, GROUPS = 10 };
+    const double level = sidak_level(0.01, 2*GROUPS*3);
+    for (sampler_kind kind = SAMPLER_SOBOL; kind <= SAMPLER_RANDOM; kind++) {
+        const sampler s = sampler_create(kind, 2, 4);
+        for (uint32_t group = 0; group < GROUPS; group++)
+            for (int d = 0; d < 3; d++) {
+                double expected[CELLS], observed[CELLS] = {0};
+                /* One sample of each pixel: those of one pixel are not independent. */
+                for (uint32_t i = 0; i < 10000; i++) observed[point_of(&s, i%100, i/100, 1, group).u[d] >> 26]++;
+                for (int i = 0; i < CELLS; i++) expected[i] = 10000.0/CELLS;
+                const chi_square c = chi_square_test(expected, observed, CELLS);
+                if (c.p < level) fail_msg("sampler %d, group %u, dimension %d: p = %g", kind, group, d, c.p);
+            }
+    }
+}
+
+/* The correlation of two numbers over n pixels has the standard deviation 1/sqrt(n). */
+static double correlation(const sampler *s, uint32_t dx, uint32_t index, uint32_t group_a, uint32_t group_b, int d,
+                          int e)
+{
+    enum { SIDE = 100 };
+    double sum = 0;
+    for (uint32_t y = 0; y < SIDE; y++)
+        for (uint32_t x = 0; x < SIDE; x++) {
+            const double a = point_of(s, x, y, 0, group_a).u[d]*0x1p-32 - 0.5;
+            const double b = point_of(s, x + dx, y, index, group_b).u[e]*0x1p-32 - 0.5;
+            sum += a*b;
+        }
+    return sum*12/SIDE/SIDE;
+}
+
+static void groups_and_pixels_are_uncorrelated(void **state)
+{
+    (void)state;
+    double worst = 0;
+    int n = 0;
+    for (sampler_kind kind = SAMPLER_SOBOL; kind <= SAMPLER_RANDOM; kind++) {
+        const sampler s = sampler_create(kind, 2, 16);
+        for (int d = 0; d < 3; d++)
+            for (int e = 0; e < 3; e++) {
+                for (uint32_t group = 1; group < 5; group++, n++) /* between groups */
+                    worst = fmax(worst, fabs(correlation(&s, 0, 0, 0, group, d, e)));
+                for (uint32_t dx = 1; dx < 4; dx++, n++) /* between neighbours */
+                    worst = fmax(worst, fabs(correlation(&s, dx, 0, 2, 2, d, e)));
+                if (d != e) worst = fmax(worst, fabs(correlation(&s, 0, 0, 2, 2, d, e))), n++; /* inside a point */
+                if (kind == SAMPLER_RANDOM) worst = fmax(worst, fabs(correlation(&s, 0, 1, 2, 2, d, e))), n++;
+            }
+    }
+    print_message("  largest of %d correlations: %.4f\n", n, worst);
+    assert_true(erfc(worst*100/sqrt(2)) > sidak_level(0.01, n));
+}
+
+/* In a pixel, the pairs of numbers of two groups fill the square although each group is stratified.  Both margins are
+ * exact, so chi-square of an even filling has (SIDE - 1)^2 degrees of freedom, which is its mean; what correlation the
+ * hash leaves takes the mean to 56.  If the stratum in one group determined that in the other, the mean would be
+ * (SIDE - 1) COUNT. */
+static void pairs_across_groups_fill_the_square(void **state)
+{
+    (void)state;
+    enum { SIDE = 8, COUNT = 1024, PIXELS = 40, GROUPS = 5 };
+    const sampler s = sampler_create(SAMPLER_SOBOL, 9, COUNT);
+    double mean = 0;
+    for (uint32_t x = 0; x < PIXELS; x++)
+        for (uint32_t group = 1; group <= GROUPS; group++) {
+            double observed[SIDE*SIDE] = {0};
+            for (uint32_t i = 0; i < COUNT; i++)
+                observed[(point_of(&s, x, 0, i, 0).u[0] >> 29)*SIDE + (point_of(&s, x, 0, i, group).u[0] >> 29)]++;
+            const double expected = (double)COUNT/SIDE/SIDE;
+            for (int i = 0; i < SIDE*SIDE; i++)
+                mean += (observed[i] - expected)*(observed[i] - expected)/expected/PIXELS/GROUPS;
+        }
+    print_message("  mean chi-square of pairs: %.1f (%d)\n", mean, (SIDE - 1)*(SIDE - 1));
+    assert_true(mean < 1.5*(SIDE - 1)*(SIDE - 1));
+}
+
+/* The mean of a product over two groups converges in each pixel, and faster than with independent numbers
+ * (whose error is sqrt(7/9/n)). */
+static void products_across_groups_converge(void **state)
+{
+    (void)state;
+    enum { PIXELS = 200, COUNT = 256 };
+    const sampler s = sampler_create(SAMPLER_SOBOL, 1, COUNT);
+    double squares = 0;
+    for (uint32_t x = 0; x < PIXELS; x++) {
+        double sum = 0;
+        for (uint32_t i = 0; i < COUNT; i++)
+            sum += 4*(point_of(&s, x, 1, i, 1).u[0]*0x1p-32)*(point_of(&s, x, 1, i, 2).u[0]*0x1p-32);
+        squares += (sum/COUNT - 1)*(sum/COUNT - 1)/PIXELS;
+    }
+    assert_true(sqrt(squares) < 0.6*sqrt(7/9.0/COUNT));
+}
+
+/* A number is a function of seed, pixel, sample and group; more samples per pixel keep those of a shorter run only
+ * when the count stays within the same power of two. */
+static void numbers_are_repeatable(void **state)
+{
+    (void)state;
+    for (sampler_kind kind = SAMPLER_SOBOL; kind <= SAMPLER_RANDOM; kind++) {
+        const sampler a = sampler_create(kind, 5, 33), b = sampler_create(kind, 5, 64), c = sampler_create(kind, 6, 64);
+        int n_equal = 0;
+        for (uint32_t i = 0; i < 33; i++) {
+            const sample_point p = point_of(&a, 10, 20, i, 4), q = point_of(&b, 10, 20, i, 4),
+                               r = point_of(&c, 10, 20, i, 4);
+            assert_memory_equal(&p, &q, sizeof p);
+            for (int d = 0; d < 3; d++) n_equal += p.u[d] == r.u[d];
+        }
+        assert_int_equal(n_equal, 0);
+    }
+    assert_int_equal(sampler_create(SAMPLER_SOBOL, 0, 1).index_mask, 0);
+    assert_int_equal(sampler_create(SAMPLER_SOBOL, 0, 1u << 24).index_mask, (1u << 24) - 1);
+}
+
+static void a_fraction_stays_below_one(void **state)
+{
+    (void)state;
+    assert_true(fraction(0) == 0);
+    assert_true(fraction(UINT32_MAX) == 1 - 0x1p-24f);
+    assert_true(fraction(0x80000000u) == 0.5f);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(each_group_is_stratified),
+        cmocka_unit_test(each_aligned_run_is_stratified),
+        cmocka_unit_test(scrambling_moves_points_inside_their_strata),
+        cmocka_unit_test(numbers_are_uniform),
+        cmocka_unit_test(groups_and_pixels_are_uncorrelated),
+        cmocka_unit_test(pairs_across_groups_fill_the_square),
+        cmocka_unit_test(products_across_groups_converge),
+        cmocka_unit_test(numbers_are_repeatable),
+        cmocka_unit_test(a_fraction_stays_below_one),
+    };
+    return cmocka_run_group_tests_name("sampler", tests, NULL, NULL);
+}
