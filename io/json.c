@@ -241,7 +241,7 @@ bool json_read_float(const json_place *object, const char *key, double low, doub
 
 bool json_read_floats(const json_place *object, const char *key, size_t n, double low, double high, float *values)
 {
-    double numbers[16];
+    double numbers[16] = {0};
     const json_place place = json_member(object, key);
     if (n > sizeof numbers/sizeof *numbers) return json_fail(&place, FACET_BAD_ARGUMENT, "is read as %zu numbers", n);
     if (!json_read_numbers(object, key, n, clip(low, FLT_MAX), clip(high, FLT_MAX), numbers)) return false;

@@ -210,7 +210,7 @@ static void prepare(const planes *p, const image *picture, channels *c, float *g
         grey[i] = (ycxcz[0] + 16)/116;
     }
     filter_colour(p, c, n);
-    taps smooth, edge, point;
+    taps smooth = {0}, edge = {0}, point = {0};
     feature_filters(&smooth, &edge, &point);
     feature(p, grey, &edge, &smooth, c->temporary, c->edge);
     feature(p, grey, &point, &smooth, c->temporary, c->point);

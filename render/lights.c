@@ -21,6 +21,7 @@ typedef struct emitter {
     real3 origin, edge1, edge2; /* triangle, world space */
     real3 normal;               /* triangle, unit, on the front side */
     float offset;               /* how far shadow rays stop from the surface [m] */
+    double power;               /* [W], luminance; what many emitters are chosen by */
     float strength;             /* mean radiance, or intensity, or irradiance of a directional light (luminances) */
 } emitter;
 
@@ -32,33 +33,29 @@ struct light_set {
     sky sky;
     emitter *emitters;
     uint32_t n_emitters, capacity;
-    alias_table choice;
+    alias_table choice;        /* for more than MOST_WEIGHED */
     size_t *first_of_instance; /* [n_instances] index of the emitter of triangle 0, or NONE */
     size_t *of_sphere;         /* [n_spheres] emitter or NONE */
     size_t sky_emitter;        /* or NONE */
 };
 
-static facet_status add_emitter(light_set *set, double **powers, const emitter *e, double power)
+static facet_status add_emitter(light_set *set, const emitter *e)
 {
-    const bool is_usable = isfinite(power) && power > 0;
     if (set->n_emitters == set->capacity) {
         const uint32_t capacity = set->capacity ? 2*set->capacity : 16;
-        emitter *emitters = realloc(set->emitters, capacity*sizeof *emitters);
-        if (emitters) set->emitters = emitters;
-        double *larger = realloc(*powers, capacity*sizeof *larger);
-        if (larger) *powers = larger;
-        if (!emitters || !larger) return FACET_NO_MEMORY;
+        emitter *larger = realloc(set->emitters, capacity*sizeof *larger);
+        if (!larger) return FACET_NO_MEMORY;
+        set->emitters = larger;
         set->capacity = capacity;
     }
-    (*powers)[set->n_emitters] = is_usable ? power : 0;
-    set->emitters[set->n_emitters] = *e;
-    if (!is_usable) set->emitters[set->n_emitters].strength = 0;
-    set->n_emitters++;
+    emitter *added = &set->emitters[set->n_emitters++];
+    *added = *e;
+    if (!(isfinite(e->power) && e->power > 0)) added->power = added->strength = 0;
     return FACET_OK;
 }
 
-/* The triangle's mean emitted luminance, from three points inside each quarter of it; textures that are black
- * there but not everywhere keep a hundredth of the factor. */
+/* The triangle's mean emitted luminance, from ten points of it; a texture that is black there but perhaps not
+ * everywhere keeps a hundredth of the factor. */
 static double mean_emission(const scene *s, const mesh *m, uint32_t triangle)
 {
     const material *mat = &s->materials[m->material];
@@ -66,14 +63,15 @@ static double mean_emission(const scene *s, const mesh *m, uint32_t triangle)
     if (mat->emissive_texture.texture == NONE) return full;
     double sum = 0;
     enum { STEPS = 4 };
+    const float third = (float)(1.0/3);
     for (int i = 0; i < STEPS; i++)
         for (int j = 0; i + j < STEPS; j++)
             sum += (double)luminance(
-                surface_emission(s, m, triangle, ((float)i + 1/3.0f)/STEPS, ((float)j + 1/3.0f)/STEPS));
-    return 0.01*full + sum/(STEPS*(STEPS + 1)/2);
+                surface_emission(s, m, triangle, ((float)i + third)/(float)STEPS, ((float)j + third)/(float)STEPS));
+    return 0.01*full + sum/10;
 }
 
-static facet_status add_instance(light_set *set, double **powers, size_t index)
+static facet_status add_instance(light_set *set, size_t index)
 {
     const scene *s = set->scene;
     const instance *in = &s->instances[index];
@@ -97,13 +95,13 @@ static facet_status add_instance(light_set *set, double **powers, size_t index)
         e.offset = 3e-6f*kmax(max_abs3(p0), kmax(max_abs3(p1), max_abs3(p2)));
         const double mean = mean_emission(s, m, i);
         e.strength = (float)mean;
-        const double power = (double)PI*(double)e.area*mean*(e.is_double_sided ? 2 : 1);
-        if (add_emitter(set, powers, &e, power)) return FACET_NO_MEMORY;
+        e.power = (double)PI*(double)e.area*mean*(e.is_double_sided ? 2 : 1);
+        if (add_emitter(set, &e)) return FACET_NO_MEMORY;
     }
     return FACET_OK;
 }
 
-static facet_status add_sphere(light_set *set, double **powers, size_t index)
+static facet_status add_sphere(light_set *set, size_t index)
 {
     const sphere *sp = &set->scene->spheres[index];
     const material *mat = &set->scene->materials[sp->material];
@@ -115,23 +113,25 @@ static facet_status add_sphere(light_set *set, double **powers, size_t index)
                        .primitive = (uint32_t)index,
                        .is_double_sided = mat->is_double_sided,
                        .offset = 3e-6f*kmax(max_abs3(vector_of(sp->center)), sp->radius),
+                       .power = 4*(double)PI*(double)PI*(double)sp->radius*(double)sp->radius*L,
                        .strength = (float)L};
-    return add_emitter(set, powers, &e, 4*(double)PI*(double)PI*(double)sp->radius*(double)sp->radius*L);
+    return add_emitter(set, &e);
 }
 
 /* scene_radius: of a sphere around everything, for lights whose power depends on it [m]. */
-static facet_status add_punctual(light_set *set, double **powers, size_t index, double scene_radius)
+static facet_status add_punctual(light_set *set, size_t index, double scene_radius)
 {
     const punctual_light *light = &set->scene->lights[index];
     const double I = (double)luminance(vector_of(light->intensity));
     double extent = 4*(double)PI;
     if (light->kind == LIGHT_SPOT) extent = 2*(double)PI*(1 - 0.5*(double)(light->cos_inner + light->cos_outer));
     if (light->kind == LIGHT_DIRECTIONAL) extent = (double)PI*scene_radius*scene_radius;
-    const emitter e = {.kind = EMITTER_PUNCTUAL, .primitive = (uint32_t)index, .strength = (float)I};
-    return add_emitter(set, powers, &e, I*extent);
+    const emitter e = {
+        .kind = EMITTER_PUNCTUAL, .primitive = (uint32_t)index, .power = I*extent, .strength = (float)I};
+    return add_emitter(set, &e);
 }
 
-static facet_status collect(light_set *set, double **powers)
+static facet_status collect(light_set *set)
 {
     const scene *s = set->scene;
     float low[3], high[3];
@@ -142,19 +142,31 @@ static facet_status collect(light_set *set, double **powers)
         if (!(radius2 > 0 && isfinite(radius2))) radius2 = 1;
     }
     for (size_t i = 0; i < s->n_instances; i++)
-        if (add_instance(set, powers, i)) return FACET_NO_MEMORY;
+        if (add_instance(set, i)) return FACET_NO_MEMORY;
     for (size_t i = 0; i < s->n_spheres; i++)
-        if (add_sphere(set, powers, i)) return FACET_NO_MEMORY;
+        if (add_sphere(set, i)) return FACET_NO_MEMORY;
     for (size_t i = 0; i < s->n_lights; i++)
-        if (add_punctual(set, powers, i, sqrt(radius2))) return FACET_NO_MEMORY;
+        if (add_punctual(set, i, sqrt(radius2))) return FACET_NO_MEMORY;
     set->sky_emitter = NONE;
     if (set->sky.mean > 0) {
         set->sky_emitter = set->n_emitters;
-        const emitter e = {.kind = EMITTER_SKY, .strength = (float)set->sky.mean};
-        const double pi2 = (double)PI*(double)PI;
-        if (add_emitter(set, powers, &e, 4*pi2*radius2*set->sky.mean)) return FACET_NO_MEMORY;
+        const double extent = 4*(double)PI*(double)PI*radius2;
+        const emitter e = {.kind = EMITTER_SKY, .power = extent*set->sky.mean, .strength = (float)set->sky.mean};
+        if (add_emitter(set, &e)) return FACET_NO_MEMORY;
     }
     return FACET_OK;
+}
+
+/* The table by which many emitters are chosen. */
+static facet_status tabulate(light_set *set)
+{
+    if (set->n_emitters <= MOST_WEIGHED) return FACET_OK;
+    double *powers = malloc(set->n_emitters*sizeof *powers);
+    if (!powers) return FACET_NO_MEMORY;
+    for (uint32_t i = 0; i < set->n_emitters; i++) powers[i] = set->emitters[i].power;
+    const facet_status status = alias_table_create(powers, set->n_emitters, &set->choice);
+    free(powers);
+    return status;
 }
 
 facet_status light_set_create(const scene *s, light_set **result, facet_error *why)
@@ -164,14 +176,12 @@ facet_status light_set_create(const scene *s, light_set **result, facet_error *w
     set->scene = s;
     set->first_of_instance = malloc((s->n_instances + 1)*sizeof *set->first_of_instance);
     set->of_sphere = malloc((s->n_spheres + 1)*sizeof *set->of_sphere);
-    double *powers = NULL;
     facet_status status = sky_create(&s->environment, &set->sky, why);
     if (status == FACET_OK) {
-        status = set->first_of_instance && set->of_sphere ? collect(set, &powers) : FACET_NO_MEMORY;
-        if (status == FACET_OK && set->n_emitters) status = alias_table_create(powers, set->n_emitters, &set->choice);
+        status = set->first_of_instance && set->of_sphere ? collect(set) : FACET_NO_MEMORY;
+        if (status == FACET_OK) status = tabulate(set);
         if (status) facet_error_set(why, status, "lights", "no memory for the light tables");
     }
-    free(powers);
     if (status) {
         light_set_destroy(set);
         return status;
