@@ -10,9 +10,9 @@
  * far off (relative to it) never met their own primitive again in 1e7 tries (tests/render/test_tracer.c). */
 #define OFFSET_ULPS 3e-6f
 
-/* A viewer is never closer to the shading plane than this cosine: interpolated and mapped normals may lean
- * away from wo although the surface faces it. */
-#define LEAST_COSINE 1e-3f
+/* The viewer's mirror image leaves the true surface at this cosine at least (or almost at the viewer's own, where
+ * that is less). */
+#define LEAST_MIRROR_COSINE 0.01f
 
 /* Weights of the three vertices. */
 typedef struct weights {
@@ -148,11 +148,20 @@ static void set_material(surface *at, const scene *s, const mesh *m, const mater
                                              mat->specular_color);
 }
 
-/* Turns n towards wo until its cosine is at least LEAST_COSINE. */
-static real3 face_viewer(real3 n, real3 wo)
+/* A shading normal that reflection can use.  Interpolated and mapped normals may lean so far from the true one g
+ * (both on the viewer's side) that the mirror image of wo lies under the surface, and the surface looks black.  In
+ * the plane of g and n, with n at the angle t from g and wo = c g + s x + ..., the mirror image has the cosine
+ *     2 (n.wo)(n.g) - c = c cos 2t + s sin 2t = r cos(2t - phi)
+ * with g; where it is too small, n is brought back to the angle at which it is just enough. */
+static real3 usable_normal(real3 n, real3 g, real3 wo)
 {
-    const float cos = dot3(n, wo);
-    return cos >= LEAST_COSINE ? n : normalize3(madd3(n, LEAST_COSINE - cos, wo));
+    if (dot3(n, g) < 0) n = neg3(n);
+    const float c = dot3(wo, g), least = kmin(0.9f*c, LEAST_MIRROR_COSINE);
+    if (2*dot3(n, wo)*dot3(n, g) - c >= least) return n;
+    const real3 x = normalize3(madd3(n, -dot3(n, g), g));
+    const float s = dot3(wo, x), r = ksqrt(c*c + s*s);
+    const float t = 0.5f*(katan2(s, c) + kacos(kmin(least/r, 1)));
+    return normalize3(add3(scale3(kcos(t), g), scale3(ksin(t), x)));
 }
 
 /* The frame: n given on the front side.  Reflecting surfaces are turned to the viewer. */
@@ -160,7 +169,7 @@ static void set_frame(surface *at, real3 n, real3 tangent, float handedness, rea
 {
     const bool flips = !at->is_front && !at->transmits;
     real3 shading = flips ? neg3(n) : n;
-    if (!at->transmits) shading = face_viewer(shading, wo);
+    if (!at->transmits) shading = usable_normal(shading, flips ? neg3(at->normal) : at->normal, wo);
     at->shading = frame_around(shading, tangent, handedness);
 }
 
