@@ -42,7 +42,7 @@ void outline_arc(outline *o, float cx, float cy, float radius, float from, float
 static float smooth_step(float t, float *slope)
 {
     const float c = kclamp(t, 0, 1);
-    *slope        = 30*c*c*(1 - c)*(1 - c);
+    *slope = 30*c*c*(1 - c)*(1 - c);
     return c*c*c*(c*(6*c - 15) + 10);
 }
 
@@ -51,25 +51,26 @@ static void add_grooved_point(outline *o, const grooved_arc *arc, float angle)
 {
     const float side = arc->to > arc->from ? 1.0f : -1.0f;
     float in_slope, out_slope;
-    const float in  = smooth_step(side*(angle - arc->groove_from)/arc->wall, &in_slope);
+    const float in = smooth_step(side*(angle - arc->groove_from)/arc->wall, &in_slope);
     const float out = smooth_step(side*(angle - arc->groove_to)/arc->wall + 1, &out_slope);
-    const float r   = arc->radius - arc->depth*(in - out);
+    const float r = arc->radius - arc->depth*(in - out);
     /* dr/d(angle), angle in radians: with it the tangent is r' d + r d', and the normal r d - r' d'. */
     const float slope = -arc->depth*side*(in_slope - out_slope)/(arc->wall*TWO_PI);
-    const real2 d     = kcossin_turn(angle);
-    const real3 n     = normalize3(make3(r*d.x + slope*d.y, r*d.y - slope*d.x, 0));
+    const real2 d = kcossin_turn(angle);
+    const real3 n = normalize3(make3(r*d.x + slope*d.y, r*d.y - slope*d.x, 0));
     add_point(o, r*d.x, r*d.y, side*n.x, side*n.y);
 }
 
 void outline_grooved_arc(outline *o, const grooved_arc *arc)
 {
-    const float side     = arc->to > arc->from ? 1.0f : -1.0f;
-    const float stops[6] = {arc->from,    arc->groove_from, arc->groove_from + side*arc->wall,
-                            arc->groove_to - side*arc->wall, arc->groove_to,   arc->to};
+    const float side = arc->to > arc->from ? 1.0f : -1.0f;
+    const float stops[6] = {
+        arc->from,      arc->groove_from, arc->groove_from + side*arc->wall, arc->groove_to - side*arc->wall,
+        arc->groove_to, arc->to};
     for (int k = 0; k < 5; k++) {
         const float share = (stops[k + 1] - stops[k])/(arc->to - arc->from);
         const bool is_wall = k == 1 || k == 3;
-        const unsigned n   = is_wall ? arc->n_wall_steps : 1 + (unsigned)(share*(float)arc->n_steps);
+        const unsigned n = is_wall ? arc->n_wall_steps : 1 + (unsigned)(share*(float)arc->n_steps);
         for (unsigned i = 0; i <= n; i++) add_grooved_point(o, arc, mix(stops[k], stops[k + 1], (float)i/(float)n));
     }
 }
@@ -80,12 +81,12 @@ void outline_grooved_arc(outline *o, const grooved_arc *arc)
 static facet_status allocate_grid(size_t n_points, size_t n_across, size_t i_material, mesh *result)
 {
     const size_t n = n_points*n_across;
-    mesh m         = {.n_vertices = n, .material = i_material};
-    m.positions    = malloc(n*sizeof *m.positions);
-    m.normals      = malloc(n*sizeof *m.normals);
-    m.tangents     = malloc(n*sizeof *m.tangents);
-    m.uv[0]        = malloc(n*sizeof *m.uv[0]);
-    m.triangles    = malloc(2*n*sizeof *m.triangles);
+    mesh m = {.n_vertices = n, .material = i_material};
+    m.positions = malloc(n*sizeof *m.positions);
+    m.normals = malloc(n*sizeof *m.normals);
+    m.tangents = malloc(n*sizeof *m.tangents);
+    m.uv[0] = malloc(n*sizeof *m.uv[0]);
+    m.triangles = malloc(2*n*sizeof *m.triangles);
     if (!m.positions || !m.normals || !m.tangents || !m.uv[0] || !m.triangles) {
         mesh_destroy(&m);
         return FACET_NO_MEMORY;
@@ -100,20 +101,20 @@ static void set_vertex(mesh *m, size_t i, real3 position, real3 normal, real3 ta
     const float values[3][3] = {{p.x, p.y, p.z}, {n.x, n.y, n.z}, {t.x, t.y, t.z}};
     for (int k = 0; k < 3; k++) {
         m->positions[i][k] = values[0][k];
-        m->normals[i][k]   = values[1][k];
-        m->tangents[i][k]  = values[2][k];
+        m->normals[i][k] = values[1][k];
+        m->tangents[i][k] = values[2][k];
     }
     m->tangents[i][3] = 1;
-    m->uv[0][i][0]    = u;
-    m->uv[0][i][1]    = v;
+    m->uv[0][i][0] = u;
+    m->uv[0][i][1] = v;
 }
 
 static void add_triangle(mesh *m, size_t a, size_t b, size_t c)
 {
     uint32_t *t = m->triangles[m->n_triangles++];
-    t[0]        = (uint32_t)a;
-    t[1]        = (uint32_t)b;
-    t[2]        = (uint32_t)c;
+    t[0] = (uint32_t)a;
+    t[1] = (uint32_t)b;
+    t[2] = (uint32_t)c;
 }
 
 /* The two triangles between each pair of neighbouring rows and columns.  Rows that lie on the axis are points, the
@@ -138,7 +139,7 @@ static float distance(outline_point p, outline_point q)
 
 facet_status mesh_turn(const outline *o, unsigned n_around, size_t i_material, mesh *result)
 {
-    const size_t n_across     = n_around + 1; /* the first meridian twice, with u = 0 and u = 1 */
+    const size_t n_across = n_around + 1; /* the first meridian twice, with u = 0 and u = 1 */
     const facet_status status = allocate_grid(o->n, n_across, i_material, result);
     if (status) return status;
     float length = 0;
@@ -165,7 +166,7 @@ facet_status mesh_sweep(const outline *o, float half_width, float uv_size, size_
     for (size_t i = 0; i < o->n; i++)
         for (size_t j = 0; j < 2; j++) {
             const outline_point p = o->at[i];
-            const float x         = j ? -half_width : half_width; /* the order that puts fronts on the right */
+            const float x = j ? -half_width : half_width; /* the order that puts fronts on the right */
             set_vertex(result, 2*i + j, make3(x, p.y, p.x), make3(0, p.ny, p.nx), make3(1, 0, 0), x/uv_size + 0.5f,
                        p.x/uv_size + 0.5f);
         }

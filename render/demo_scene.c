@@ -22,6 +22,9 @@ typedef struct ball {
     const char *core;        /* the core's material, from `looks` */
 } ball;
 
+/* Light reaches what is inside or behind glass only by scattered rays that chance upon a soft box.  So the glass
+ * stands last, where its noisy shadow leaves the picture, and has a polished core, which mirrors the light that a
+ * matt one would have to find. */
 static const ball balls[] = {
     {"plastic", "beckmann alpha=.12 ior=1.5 kd=.015,.11,.30", -4.15f, -1.7f, .07f, "ivory"},
     {"brushed-steel", "ggx alpha_x=.09 alpha_y=.38 ks=.62,.61,.59", -2.15f, 0, .035f, "ivory"},
@@ -58,7 +61,8 @@ static const bead beads[] = {
     {"copper", 1.0f, 2.75f, .30f}, {"cream", 1.95f, 2.0f, .36f}, {"slate", 3.05f, 1.15f, .42f},
 };
 
-/* A rectangle that shines towards a point. */
+/* A rectangle that shines towards a point.  All are large and of low radiance: what a path that finds one by chance
+ * brings too much, and so the noise, grows with the radiance. */
 typedef struct soft_box {
     const char *name;
     float center[3], target[3];
@@ -69,17 +73,17 @@ typedef struct soft_box {
 static const soft_box soft_boxes[] = {
     {"key light", {-7.5f, 7, 7}, {0, .5f, 0}, 4.4f, 4, {7.2f, 7, 6.7f}},
     {"fill light", {9, 3.8f, 5}, {0, 1, 0}, 1.4f, 3.2f, {3.6f, 4.2f, 5.2f}},
-    {"top light", {0, 7.5f, -2}, {0, 0, -.8f}, 6, 2.2f, {4, 4, 4}},
-    {"rim light", {9.5f, 4, -3.5f}, {0, 1, 0}, 2, 2.4f, {8, 5, 2.6f}},
+    {"top light", {0, 7.5f, -.8f}, {0, 0, .4f}, 5.5f, 2.2f, {4.5f, 4.5f, 4.5f}},
+    {"rim light", {-9.5f, 4, -4}, {0, 1, 0}, 2, 2.4f, {9, 5.4f, 2.8f}},
 };
 
 /* The shell, and its opening around the axis [turns of the outline]. */
 #define OUTER_RADIUS 1.0f
 #define INNER_RADIUS 0.9f
-#define OPENING      0.1f
-#define CORE_RADIUS  0.6f
-#define SHELL_HEIGHT 1.19f  /* of its centre above the floor, so that it sits in the foot */
-#define SHELL_TILT   0.13f /* of the opening's axis towards the viewer [turns] */
+#define OPENING 0.1f
+#define CORE_RADIUS 0.6f
+#define SHELL_HEIGHT 1.19f /* of its centre above the floor, so that it sits in the foot */
+#define SHELL_TILT 0.13f   /* of the opening's axis towards the viewer [turns] */
 
 enum { SHELL_SIDES = 144, FOOT_SIDES = 96 };
 
@@ -128,18 +132,18 @@ static const float identity[3][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}};
 
 static facet_status make_shell(size_t i_material, mesh *m)
 {
-    outline o           = {0};
-    const float rim     = 0.25f - OPENING;
-    const real2 d       = kcossin_turn(rim);
-    const float middle  = 0.5f*(OUTER_RADIUS + INNER_RADIUS);
-    const grooved_arc a = {.radius      = OUTER_RADIUS,
-                           .from        = -0.25f,
-                           .to          = rim,
+    outline o = {0};
+    const float rim = 0.25f - OPENING;
+    const real2 d = kcossin_turn(rim);
+    const float middle = 0.5f*(OUTER_RADIUS + INNER_RADIUS);
+    const grooved_arc a = {.radius = OUTER_RADIUS,
+                           .from = -0.25f,
+                           .to = rim,
                            .groove_from = .028f,
-                           .groove_to   = .062f,
-                           .wall        = .008f,
-                           .depth       = .045f,
-                           .n_steps     = 110,
+                           .groove_to = .062f,
+                           .wall = .008f,
+                           .depth = .045f,
+                           .n_steps = 110,
                            .n_wall_steps = 10};
     outline_grooved_arc(&o, &a);
     outline_arc(&o, middle*d.x, middle*d.y, 0.5f*(OUTER_RADIUS - INNER_RADIUS), rim, rim + 0.5f, 20);
@@ -171,9 +175,8 @@ static facet_status add_ball(scene *s, const ball *b, size_t foot_mesh, facet_er
                                {-yaw.y, yaw.x*tilt.y, yaw.x*tilt.x, b->z}};
     if (place_mesh(s, &m, shell, b->name, why)) return FACET_NO_MEMORY;
     const instance foot = {.mesh = foot_mesh, .to_world = {{1, 0, 0, b->x}, {0, 1, 0, 0}, {0, 0, 1, b->z}}};
-    const sphere core   = {.center   = {b->x, SHELL_HEIGHT, b->z},
-                           .radius   = CORE_RADIUS,
-                           .material = scene_find_material(s, b->core)};
+    const sphere core = {
+        .center = {b->x, SHELL_HEIGHT, b->z}, .radius = CORE_RADIUS, .material = scene_find_material(s, b->core)};
     if (scene_add_instance(s, &foot, NULL) || scene_add_sphere(s, &core, NULL)) return no_memory(why, b->name);
     return FACET_OK;
 }
@@ -196,10 +199,9 @@ static facet_status add_things(scene *s, facet_error *why)
         if (status) return status;
     }
     for (size_t i = 0; i < COUNT(beads); i++) {
-        const bead *b      = &beads[i];
-        const sphere shape = {.center   = {b->x, b->radius, b->z},
-                              .radius   = b->radius,
-                              .material = scene_find_material(s, b->look)};
+        const bead *b = &beads[i];
+        const sphere shape = {
+            .center = {b->x, b->radius, b->z}, .radius = b->radius, .material = scene_find_material(s, b->look)};
         if (scene_add_sphere(s, &shape, NULL)) return no_memory(why, b->look);
     }
     return FACET_OK;
@@ -213,11 +215,11 @@ static float floor_value(float x, float z)
     const float tile = FLOOR_SIZE/FLOOR_TILES;
     const float u = x/tile, v = z/tile;
     const float to_line = tile*kmin(kabs(u - kround(u)), kabs(v - kround(v)));
-    const bool is_odd   = ((int)kfloor(u) + (int)kfloor(v)) & 1;
+    const bool is_odd = ((int)kfloor(u) + (int)kfloor(v)) & 1;
     /* The pattern fades into the backdrop. */
-    const float fade = 1 - ksaturate((ksqrt(x*x + z*z) - 5)/5);
-    const float line = ksaturate(1 - (to_line - .012f)/.02f);
-    return 1 - fade*((is_odd ? .12f : 0) + .35f*line*(is_odd ? .8f : 1));
+    const float fade = 1 - ksaturate((ksqrt(x*x + z*z) - 4)/4);
+    const float line = ksaturate(1 - (to_line - .005f)/.02f);
+    return 1 - fade*((is_odd ? .12f : 0) + .3f*line*(is_odd ? .8f : 1));
 }
 
 static facet_status add_floor_texture(scene *s, size_t *index, facet_error *why)
@@ -227,11 +229,13 @@ static facet_status add_floor_texture(scene *s, size_t *index, facet_error *why)
     const float step = FLOOR_SIZE/FLOOR_PIXELS;
     for (size_t i = 0; i < FLOOR_PIXELS; i++)
         for (size_t j = 0; j < FLOOR_PIXELS; j++) {
-            const float value = floor_value(((float)j + .5f)*step - FLOOR_SIZE/2, ((float)i + .5f)*step - FLOOR_SIZE/2);
+            const float value = floor_value(((float)j + .5f)*step - FLOOR_SIZE/2,
+                                            ((float)i + .5f)*step - FLOOR_SIZE/2);
             pixels[i*FLOOR_PIXELS + j] = (uint8_t)(255*value + .5f);
         }
-    image picture = {.width = FLOOR_PIXELS, .height = FLOOR_PIXELS, .n_channels = 1, .type = PIXEL_U8, .pixels = pixels};
-    texture t     = {.wrap_u = WRAP_CLAMP, .wrap_v = WRAP_CLAMP};
+    image picture = {
+        .width = FLOOR_PIXELS, .height = FLOOR_PIXELS, .n_channels = 1, .type = PIXEL_U8, .pixels = pixels};
+    texture t = {.wrap_u = WRAP_CLAMP, .wrap_v = WRAP_CLAMP};
     if (scene_add_image(s, &picture, &t.image)) {
         image_destroy(&picture);
         return no_memory(why, "floor");
@@ -248,9 +252,9 @@ static facet_status add_backdrop(scene *s, facet_error *why)
     material floor;
     if (material_default("floor", &floor)) return no_memory(why, "floor");
     memcpy(floor.base_color, color, sizeof color);
-    floor.metallic                           = 0;
-    floor.roughness                          = .45f;
-    floor.base_color_texture.texture         = picture;
+    floor.metallic = 0;
+    floor.roughness = .45f;
+    floor.base_color_texture.texture = picture;
     floor.metallic_roughness_texture.texture = picture;
     if (scene_add_material(s, &floor, &index)) {
         material_destroy(&floor);
@@ -295,13 +299,13 @@ static facet_status add_sky(scene *s, facet_error *why)
     if (!pixels) return no_memory(why, "environment");
     for (size_t i = 0; i < HEIGHT; i++) {
         const float height = kcos(PI*((float)i + .5f)/HEIGHT);
-        const float share  = kexp(height > 0 ? -3*height : 8*height);
+        const float share = kexp(height > 0 ? -3*height : 8*height);
         for (size_t j = 0; j < WIDTH; j++)
             for (int k = 0; k < 3; k++)
                 pixels[i*WIDTH + j][k] = mix(height > 0 ? zenith[k] : below[k], horizon[k], share);
     }
-    s->environment.map =
-        (image){.width = WIDTH, .height = HEIGHT, .n_channels = 3, .type = PIXEL_F32, .pixels = pixels};
+    s->environment.map = (image){
+        .width = WIDTH, .height = HEIGHT, .n_channels = 3, .type = PIXEL_F32, .pixels = pixels};
     for (int k = 0; k < 3; k++) s->environment.scale[k] = 1;
     return FACET_OK;
 }
@@ -309,13 +313,14 @@ static facet_status add_sky(scene *s, facet_error *why)
 static facet_status add_camera(scene *s, facet_error *why)
 {
     static const float eye[3] = {0, 4.9f, 20}, target[3] = {0, 1.0f, 0};
-    static const char name[]  = "studio";
+    static const char name[] = "studio";
     const real3 back = normalize3(sub3(vector_of(eye), vector_of(target)));
     const real3 side = normalize3(make3(back.z, 0, -back.x)), up = cross3(back, side);
-    camera c = {.to_world = {{side.x, up.x, back.x, eye[0]}, {side.y, up.y, back.y, eye[1]}, {side.z, up.z, back.z, eye[2]}},
-                .yfov     = .27f,
-                .aspect   = 16/9.0f};
-    c.name   = malloc(sizeof name);
+    camera c = {
+        .to_world = {{side.x, up.x, back.x, eye[0]}, {side.y, up.y, back.y, eye[1]}, {side.z, up.z, back.z, eye[2]}},
+        .yfov = .278f,
+        .aspect = 16/9.0f};
+    c.name = malloc(sizeof name);
     if (!c.name) return no_memory(why, name);
     memcpy(c.name, name, sizeof name);
     if (!scene_add_camera(s, &c, NULL)) return FACET_OK;

@@ -96,10 +96,11 @@ static int compare_edges(const void *a, const void *b)
 static bool is_closed(const mesh *m)
 {
     const size_t n = 3*m->n_triangles;
-    edge *edges    = malloc(n*sizeof *edges);
+    edge *edges = malloc(n*sizeof *edges);
     assert_non_null(edges);
     for (size_t i = 0; i < n; i++) {
-        const float *from = m->positions[m->triangles[i/3][i%3]], *to = m->positions[m->triangles[i/3][(i + 1)%3]];
+        const float *from = m->positions[m->triangles[i/3][i%3]],
+                    *to = m->positions[m->triangles[i/3][(i + 1)%3]];
         const bool is_forward = compare_points(from, to) < 0;
         memcpy(edges[i].ends, is_forward ? from : to, 3*sizeof *from);
         memcpy(edges[i].ends + 3, is_forward ? to : from, 3*sizeof *from);
@@ -108,7 +109,7 @@ static bool is_closed(const mesh *m)
     qsort(edges, n, sizeof *edges, compare_edges);
     bool balanced = true;
     for (size_t i = 0; i < n;) {
-        int sum        = 0;
+        int sum = 0;
         const size_t i0 = i;
         for (; i < n && compare_edges(&edges[i0], &edges[i]) == 0; i++) sum += edges[i].direction;
         balanced = balanced && sum == 0 && i - i0 == 2;
@@ -160,27 +161,27 @@ static void missing_triangle_opens_a_surface(void **state)
 static void groove_has_its_depth_and_smooth_walls(void **state)
 {
     (void)state;
-    outline o           = {0};
-    const grooved_arc a = {.radius       = 1,
-                           .from         = -0.25f,
-                           .to           = 0.1f,
-                           .groove_from  = 0,
-                           .groove_to    = 0.05f,
-                           .wall         = 0.01f,
-                           .depth        = 0.1f,
-                           .n_steps      = 50,
+    outline o = {0};
+    const grooved_arc a = {.radius = 1,
+                           .from = -0.25f,
+                           .to = 0.1f,
+                           .groove_from = 0,
+                           .groove_to = 0.05f,
+                           .wall = 0.01f,
+                           .depth = 0.1f,
+                           .n_steps = 50,
                            .n_wall_steps = 40};
     outline_grooved_arc(&o, &a);
     float least = 1, most = 0;
     for (size_t i = 0; i < o.n; i++) {
         const outline_point p = o.at[i];
         least = fminf(least, sqrtf(p.x*p.x + p.y*p.y));
-        most  = fmaxf(most, sqrtf(p.x*p.x + p.y*p.y));
+        most = fmaxf(most, sqrtf(p.x*p.x + p.y*p.y));
         if (i == 0) continue;
         /* The normal is across the curve: a chord leans from the tangents at its ends by at most the turn between
          * them, below 0.2 radians at these steps. */
         const outline_point q = o.at[i - 1];
-        const real3 chord     = normalize3(make3(p.x - q.x, p.y - q.y, 0));
+        const real3 chord = normalize3(make3(p.x - q.x, p.y - q.y, 0));
         assert_true(fabsf(dot3(chord, make3(p.nx, p.ny, 0))) < 0.2f);
         assert_true(p.nx*q.nx + p.ny*q.ny > 0.98f);
     }
@@ -217,7 +218,7 @@ static void balls_are_closed(void **state)
     (void)state;
     size_t n_closed = 0;
     for (size_t i = 0; i < demo->n_meshes; i++) {
-        const mesh *m       = &demo->meshes[i];
+        const mesh *m = &demo->meshes[i];
         const material *mat = &demo->materials[m->material];
         if (mat->kind != SURFACE_BSDF) continue;
         assert_true(is_closed(m));
@@ -291,17 +292,17 @@ static void renders_without_bad_samples(void **state)
     (void)state;
     render_settings settings;
     render_settings_defaults(&settings);
-    settings.width     = 96;
-    settings.height    = 54;
-    settings.spp       = 4;
+    settings.width = 96;
+    settings.height = 54;
+    settings.spp = 4;
     settings.n_threads = 1;
     render_result result;
     assert_int_equal(render(demo, &settings, &result, NULL), FACET_OK);
     assert_int_equal(result.n_bad, 0);
     /* Exposed for the screen without a correction: the mean lies within two stops of middle grey. */
-    double sum           = 0;
-    const float *pixels  = result.picture.pixels;
-    const size_t n       = 3*result.picture.width*result.picture.height;
+    double sum = 0;
+    const float *pixels = result.picture.pixels;
+    const size_t n = 3*result.picture.width*result.picture.height;
     for (size_t i = 0; i < n; i++) sum += (double)pixels[i];
     assert_true(sum/(double)n > 0.18/4 && sum/(double)n < 0.18*4);
     render_result_destroy(&result);
