@@ -270,6 +270,15 @@ void tracer_prepare_thread(void)
 #endif
 }
 
+/* Embree ends the program on rays with larger coordinates, or NaN; nothing it holds can lie on them. */
+static bool is_traceable(const ray *r)
+{
+    const float largest = 1e18f;
+    for (int k = 0; k < 3; k++)
+        if (!(kabs(r->origin[k]) < largest && kabs(r->direction[k]) < largest)) return false;
+    return r->t_min >= 0 && r->t_max >= r->t_min;
+}
+
 static struct RTCRay ray_for_embree(const ray *r)
 {
     return (struct RTCRay){.org_x = r->origin[0],
@@ -286,6 +295,7 @@ static struct RTCRay ray_for_embree(const ray *r)
 
 bool tracer_intersect(const tracer *t, const ray *r, hit *found)
 {
+    if (!is_traceable(r)) return false;
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     struct RTCRayHit rh = {.ray = ray_for_embree(r)};
@@ -304,6 +314,7 @@ bool tracer_intersect(const tracer *t, const ray *r, hit *found)
 
 bool tracer_occluded(const tracer *t, const ray *r)
 {
+    if (!is_traceable(r)) return true;
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     struct RTCRay shadow = ray_for_embree(r);

@@ -35,10 +35,10 @@ facet_status tracer_create(const scene *s, const char *isa, uint32_t n_threads, 
                            const void *opacity_user, tracer **result, facet_error *why);
 void tracer_destroy(tracer *t);
 
-/* The nearest surface; false if there is none. */
+/* The nearest surface; false if there is none, or if a coordinate of the ray is not finite or above 1e18. */
 bool tracer_intersect(const tracer *t, const ray *r, hit *found);
 
-/* Whether anything lies on the ray. */
+/* Whether anything lies on the ray; true for rays that cannot be traced. */
 bool tracer_occluded(const tracer *t, const ray *r);
 
 /* The instruction set in use: "avx2", ...; static storage. */
