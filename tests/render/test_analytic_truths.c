@@ -1,6 +1,6 @@
 /* test_analytic_truths.c: radiances that are known without a renderer.
  *
- * [cs500] CS500 Project 3, TracePath; the cases A, B and C and the factors of the printed algorithm: docs/integrator.md.
+ * [cs500] CS500 Project 3, TracePath.  Cases A, B, C and the factors of the printed algorithm: docs/integrator.md.
  * Every tolerance is four standard errors of the estimate, which must be small enough to find half a percent.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
@@ -327,8 +327,8 @@ static void punctual_lights_obey_their_laws(void **state)
 
 /* ---- The printed algorithm ----------------------------------------------------------------------------------- */
 
-/* TracePath as [cs500] prints it, in a scene that is known in closed form: each light is added in full by the shadow ray
- * and in full when the scattered ray meets it, and the roulette (RR = .8) stands before the explicit term while its
+/* TracePath as [cs500] prints it, in a scene that is known in closed form: each light is added in full by the shadow
+ * ray and in full when the scattered ray meets it, and the roulette (RR = .8) stands before the explicit term while its
  * factor is put into the density of the implicit one only.  GeometryFactor is taken as cos_L/d^2. */
 #define RR 0.8
 

@@ -40,8 +40,8 @@ typedef struct comparison {
     double error_cap; /* the standard error must be below */
 } comparison;
 
-/* The Principled node of Blender 3.4 as its glTF importer fills it, for materials without textures: specular .5 whatever
- * KHR_materials_specular says (F0 = .04), Disney's diffuse base beside it, GGX without multiple scattering; its masking
+/* The Principled node of Blender 3.4 as its glTF importer fills it, for materials without textures: specular .5
+ * whatever KHR_materials_specular says (F0 = .04), Disney's diffuse base beside it, GGX without multiple scattering; its masking
  * is separable, which metals show at high roughness.  Emission and all else is two-sided. */
 static void peer_materials(scene *s)
 {
@@ -267,8 +267,8 @@ static double cell_mean(const float *pixels, size_t n_channels, size_t row, size
     return sum/(4*HALF*HALF);
 }
 
-/* The spheres light each other.  Rows that the two renderers read differently (single-scattering rough glass, clear coat
- * and sheen) are replaced by lamps as bright as the reference shows them; what the others show is compared. */
+/* The spheres light each other.  Rows that the two renderers read differently (single-scattering rough glass, clear
+ * coat and sheen) are replaced by lamps as bright as the reference shows them; what the others show is compared. */
 static void white_furnace(void **state)
 {
     (void)state;

@@ -88,8 +88,8 @@ static void alias_tables_draw_their_probabilities_and_leave_a_uniform_rest(void 
 /* ---- Densities over directions ------------------------------------------------------------------------------- */
 
 /* Draws n directions to the scene's lights from a point; checks that
- *   - the fraction of draws in each of 24 x 48 cells of directions is the integral of the claimed density over it, which
- *     is found by tracing a grid of directions and asking light_set_pdf_of_hit or light_set_pdf_of_sky;
+ *   - the fraction of draws in each of 24 x 48 cells of directions is the integral of the claimed density over it,
+ *     which is found by tracing a grid of directions and asking light_set_pdf_of_hit or light_set_pdf_of_sky;
  *   - a ray to the drawn target meets the emitter with the same density and radiance that the draw reports. */
 enum { ROWS = 24, COLUMNS = 48, FINE = 32 };
 

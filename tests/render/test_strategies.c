@@ -121,7 +121,7 @@ static void the_three_strategies_and_two_samplers_agree(void **state)
         if (how == STRATEGY_IMPLICIT) r.spp *= 4;
         by[how] = measure_blocks(s, r);
     }
-    /* The error that is reported for Sobol' points is what independent samples would have: too large, never too small. */
+    /* The error that is reported for Sobol' points is what independent samples would have: never too small. */
     r.strategy = STRATEGY_MIS;
     r.sampler = SAMPLER_SOBOL;
     r.spp /= 4;
