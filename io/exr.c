@@ -282,7 +282,7 @@ static facet_status check_window(reader *r, facet_error *why)
     r->picture.width = (size_t)width;
     r->picture.height = (size_t)height;
     if (r->picture.width > IMAGE_PIXEL_CAP/r->picture.height) {
-        return facet_error_set(why, FACET_NO_MEMORY, "dataWindow", "has more than %zu pixels", IMAGE_PIXEL_CAP);
+        return facet_error_set(why, FACET_UNSUPPORTED, "dataWindow", "has more than %zu pixels", IMAGE_PIXEL_CAP);
     }
     /* At most 2^28 pixels of at most 2^31/18 channels, the shortest entry in a file of 2 GiB: below 2^58. */
     if ((uint64_t)r->picture.width*r->picture.height*r->bytes_per_pixel/MAX_RATIO > r->stream.size) {
@@ -392,7 +392,7 @@ static facet_status read_chunk(reader *r, exr_decode_pipeline_t *decode, const e
         return facet_error_set(why, FACET_BAD_FILE, place, "a block has another size than the header says");
     }
     if (chunk->unpacked_size > MAX_CHUNK) {
-        return facet_error_set(why, FACET_NO_MEMORY, place, "a block has more than %llu bytes",
+        return facet_error_set(why, FACET_UNSUPPORTED, place, "a block has more than %llu bytes",
                                (unsigned long long)MAX_CHUNK);
     }
     exr_result_t code = decode->context ? exr_decoding_update(r->context, 0, chunk, decode)

@@ -46,7 +46,7 @@ static facet_status check_readable(int descriptor, size_t *size, facet_error *wh
         return facet_error_set(why, FACET_IO, "", "is not a regular file; devices and pipes are not read");
     }
     if ((unsigned long long)info.st_size > FILE_SIZE_CAP) {
-        return facet_error_set(why, FACET_NO_MEMORY, "", "has %lld bytes; files of up to %zu bytes are read",
+        return facet_error_set(why, FACET_UNSUPPORTED, "", "has %lld bytes; files of up to %zu bytes are read",
                                (long long)info.st_size, FILE_SIZE_CAP);
     }
     *size = (size_t)info.st_size;

@@ -15,7 +15,7 @@
 extern "C" {
 #endif
 
-/* Files above this many bytes are refused, with FACET_NO_MEMORY [byte]. */
+/* Files above this many bytes are refused, with FACET_UNSUPPORTED [byte]. */
 #define FILE_SIZE_CAP ((size_t)2 << 30)
 
 /* The whole file, with one 0 byte after its end that *size does not count.  The caller frees *bytes. */

@@ -52,7 +52,7 @@ bool gltf_no_memory(const json_place *place)
 bool gltf_take_input(gltf *g, const json_place *place, const unsigned char *bytes, size_t size)
 {
     if (size > GLTF_INPUT_CAP - g->input_size)
-        return json_fail(place, FACET_NO_MEMORY, "brings the scene's files above %zu GiB", GLTF_INPUT_CAP >> 30);
+        return json_fail(place, FACET_UNSUPPORTED, "brings the scene's files above %zu GiB", GLTF_INPUT_CAP >> 30);
     g->input_size += size;
     uint64_t hash = g->scene->hash;
     for (size_t i = 0; i < size; i++) hash = (hash ^ bytes[i])*FNV_PRIME;
@@ -64,7 +64,7 @@ bool gltf_charge(gltf *g, const json_place *place, size_t count, size_t size)
 {
     const size_t cap = GLTF_GEOMETRY_FLOOR + GLTF_GEOMETRY_FACTOR*g->input_size;
     if (size && count > (cap - g->geometry_size)/size)
-        return json_fail(place, FACET_NO_MEMORY,
+        return json_fail(place, FACET_UNSUPPORTED,
                          "brings the geometry above %zu MiB (%zu MiB plus %zu times the %zu bytes read)", cap >> 20,
                          GLTF_GEOMETRY_FLOOR >> 20, GLTF_GEOMETRY_FACTOR, g->input_size);
     g->geometry_size += count*size;
@@ -192,7 +192,7 @@ static bool open_file(gltf *g)
     size_t json_size = size;
     if (gltf_is_glb(bytes, size) && !gltf_open_glb(g, bytes, size, &json, &json_size)) return false;
     if (json_size > GLTF_JSON_CAP)
-        return json_fail(&g->root, FACET_NO_MEMORY, "has %zu MiB of JSON; at most %zu MiB are read", json_size >> 20,
+        return json_fail(&g->root, FACET_UNSUPPORTED, "has %zu MiB of JSON; at most %zu MiB are read", json_size >> 20,
                          GLTF_JSON_CAP >> 20);
     if (!json_parse(json, json_size, &g->root, &g->error)) return false;
     return json_want_object(&g->root);

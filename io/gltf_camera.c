@@ -129,7 +129,7 @@ bool gltf_add_camera(gltf *g, const json_place *node, size_t camera_number, gltf
         for (int k = 0; k < 4; k++) c.to_world[r][k] = (float)row[k];
     }
     if (g->scene->n_cameras >= GLTF_CAMERA_CAP)
-        return json_fail(node, FACET_NO_MEMORY, "brings the cameras above %zu", GLTF_CAMERA_CAP);
+        return json_fail(node, FACET_UNSUPPORTED, "brings the cameras above %zu", GLTF_CAMERA_CAP);
     if (!name_camera(g, node, &place, camera_number, &c)) return false;
     if (!scene_add_camera(g->scene, &c, NULL)) return true;
     free(c.name);
@@ -195,6 +195,6 @@ bool gltf_add_light(gltf *g, const json_place *node, gltf_matrix world)
         light.intensity[k] = color[k]*intensity;
     }
     if (g->scene->n_lights >= GLTF_INSTANCE_CAP)
-        return json_fail(node, FACET_NO_MEMORY, "brings the lights above %zu", GLTF_INSTANCE_CAP);
+        return json_fail(node, FACET_UNSUPPORTED, "brings the lights above %zu", GLTF_INSTANCE_CAP);
     return !scene_add_light(g->scene, &light, NULL) || gltf_no_memory(node);
 }

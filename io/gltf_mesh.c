@@ -40,7 +40,7 @@ static bool read_positions(gltf *g, const json_place *attributes, mesh *m)
     const gltf_accessor *a;
     float *values;
     if (!gltf_find_accessor(g, &place, &a) || !gltf_want_format(&place, a, "VEC3", FORMAT_POSITION)) return false;
-    if (a->count >= UINT32_MAX) return json_fail(&place, FACET_NO_MEMORY, "has %zu vertices", a->count);
+    if (a->count >= UINT32_MAX) return json_fail(&place, FACET_UNSUPPORTED, "has %zu vertices", a->count);
     if (!gltf_read_floats(g, &place, a, &values)) return false;
     m->n_vertices = a->count;
     m->positions = (float(*)[3])(void *)values;

@@ -25,7 +25,7 @@ static bool read_instance_attribute(gltf *g, const json_place *attributes, const
     if (*n != NONE && a->count != *n)
         return json_fail(&place, FACET_BAD_FILE, "has %zu elements; the others have %zu", a->count, *n);
     if (a->count > GLTF_INSTANCE_CAP)
-        return json_fail(&place, FACET_NO_MEMORY, "has %zu instances; at most %zu are read", a->count,
+        return json_fail(&place, FACET_UNSUPPORTED, "has %zu instances; at most %zu are read", a->count,
                          GLTF_INSTANCE_CAP);
     *n = a->count;
     return gltf_read_floats(g, &place, a, values);
@@ -78,7 +78,7 @@ static bool read_instancing(gltf *g, const json_place *node, gltf_matrix **list,
 static bool check_cap(const json_place *node, size_t n)
 {
     return n < GLTF_INSTANCE_CAP ||
-           json_fail(node, FACET_NO_MEMORY, "brings the instances above %zu", GLTF_INSTANCE_CAP);
+           json_fail(node, FACET_UNSUPPORTED, "brings the instances above %zu", GLTF_INSTANCE_CAP);
 }
 
 static bool add_instances(gltf *g, const json_place *node, const gltf_mesh *m, gltf_matrix world)

@@ -48,7 +48,8 @@ static bool use_image(gltf *g, size_t number, size_t *index)
     if (status) return json_fail(&place, status, "%s%s%s", problem.place, problem.place[0] ? ": " : "", problem.text);
     bool is_kept = true;
     if (image_size(&picture) > GLTF_IMAGE_CAP - g->image_size)
-        is_kept = json_fail(&place, FACET_NO_MEMORY, "brings the decoded pictures above %zu GiB", GLTF_IMAGE_CAP >> 30);
+        is_kept = json_fail(&place, FACET_UNSUPPORTED, "brings the decoded pictures above %zu GiB",
+                            GLTF_IMAGE_CAP >> 30);
     else if (scene_add_image(g->scene, &picture, index)) is_kept = gltf_no_memory(&place);
     if (!is_kept) {
         image_destroy(&picture);

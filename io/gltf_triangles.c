@@ -67,7 +67,7 @@ bool gltf_read_triangles(gltf *g, const json_place *primitive, size_t n_vertices
         gltf_warn(g, primitive, "%zu corners make no whole number of triangles: the last are left out", n);
     if (count > GLTF_TRIANGLE_CAP - g->n_triangles) {
         free(indices);
-        return json_fail(primitive, FACET_NO_MEMORY, "brings the triangles above %zu", GLTF_TRIANGLE_CAP);
+        return json_fail(primitive, FACET_UNSUPPORTED, "brings the triangles above %zu", GLTF_TRIANGLE_CAP);
     }
     uint32_t(*out)[3] = gltf_alloc(g, primitive, count, sizeof *out);
     for (size_t i = 0; out && i < count; i++) {

@@ -176,7 +176,7 @@ static facet_status read_resolution(cursor *c, header *h, facet_error *why)
     }
     const size_t n_lines = h->axes[0].length, n = h->axes[1].length;
     if (n > IMAGE_PIXEL_CAP/n_lines) {
-        return facet_error_set(why, FACET_NO_MEMORY, "resolution", "is more than %zu pixels", IMAGE_PIXEL_CAP);
+        return facet_error_set(why, FACET_UNSUPPORTED, "resolution", "is more than %zu pixels", IMAGE_PIXEL_CAP);
     }
     /* The shortest scan line of all: one pixel, and in the old coding one run that repeats it. */
     const size_t shortest = n > 1 ? 8 : 4;

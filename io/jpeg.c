@@ -93,7 +93,7 @@ static void prepare(job *j, size_t size)
         fail(j, FACET_UNSUPPORTED, "colours other than grey, YCbCr and RGB are not read");
     }
     if (width > IMAGE_PIXEL_CAP/height) {
-        fail(j, FACET_NO_MEMORY, "the picture has more pixels than are read (2^28)");
+        fail(j, FACET_UNSUPPORTED, "the picture has more pixels than are read (2^28)");
     }
     if (width*height/MAX_PIXELS_PER_BYTE > size) {
         fail(j, FACET_BAD_FILE, "the file is truncated: it is too short for its width and height");

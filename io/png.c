@@ -36,7 +36,7 @@ typedef struct job {
     png_bytepp rows;
     png_textp texts;
     image picture;
-    bool is_out_of_memory, is_io_error;
+    bool is_out_of_memory, is_too_large, is_io_error;
     char message[160];
 } job;
 
@@ -107,7 +107,7 @@ static void prepare_read(job *j)
     const size_t width = png_get_image_width(j->png, j->info);
     const size_t height = png_get_image_height(j->png, j->info);
     if (width > IMAGE_PIXEL_CAP/height) {
-        j->is_out_of_memory = true;
+        j->is_too_large = true;
         png_error(j->png, "the picture has more pixels than are read (2^28)");
     }
     if (png_get_rowbytes(j->png, j->info) > (j->size*DEFLATE_RATIO)/height) {
@@ -165,8 +165,8 @@ facet_status png_decode(const unsigned char *bytes, size_t size, image *picture,
         status = facet_error_set(why, FACET_NO_MEMORY, "", "no memory to read a PNG file");
     } else if (!read_picture(&j)) {
         snprintf(place, sizeof place, "byte %zu", j.at);
-        status = facet_error_set(why, j.is_out_of_memory ? FACET_NO_MEMORY : FACET_BAD_FILE, place, "PNG: %s",
-                                 j.message);
+        const facet_status refusal = j.is_too_large ? FACET_UNSUPPORTED : FACET_BAD_FILE;
+        status = facet_error_set(why, j.is_out_of_memory ? FACET_NO_MEMORY : refusal, place, "PNG: %s", j.message);
     }
     png_destroy_read_struct(&j.png, &j.info, NULL);
     free(j.rows);

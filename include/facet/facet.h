@@ -47,8 +47,8 @@ typedef enum facet_status {
     FACET_UNKNOWN_NAME, /* no such model, parameter or choice */
     FACET_BAD_VALUE,    /* a value outside its documented range, or not finite */
     FACET_BAD_FILE,     /* a file's content is damaged or not of its kind */
-    FACET_UNSUPPORTED,  /* a valid file asks for something that is not supported */
-    FACET_NO_MEMORY,    /* out of memory, or a size above the documented cap */
+    FACET_UNSUPPORTED,  /* a file asks for something that is not supported, or is above a documented cap */
+    FACET_NO_MEMORY,    /* out of memory */
     FACET_IO            /* the system refused: missing, not permitted, disk full */
 } facet_status;
 

@@ -115,7 +115,7 @@ static void a_huge_file_is_refused_before_memory_is_taken(void **state)
     if (truncate(path_of("huge"), (off_t)FILE_SIZE_CAP + 1) != 0) {
         skip(); /* the file system cannot hold such a sparse file */
     }
-    assert_refused(path_of("huge"), FACET_NO_MEMORY, "2147483649");
+    assert_refused(path_of("huge"), FACET_UNSUPPORTED, "2147483649");
 }
 
 static void a_commit_replaces_the_old_file_and_leaves_nothing_else(void **state)
