@@ -1,7 +1,8 @@
 /* test_cli_badinput.c: the program on every file of ../shared/assets/badinput: exit status, one line, no crash.
  *
- * Scenes are rendered, everything else is read by `info`.  A file ends with status 0, or with 3 and one line `facet: error: FILE...`; anything else (a signal, a
- * hang past 60 s, more than 2 GiB) fails.  crafted/expected.tsv says which of the two for the files there.
+ * Scenes are rendered, everything else is read by `info`.  A file ends with status 0, or with 3 and one line
+ * `facet: error: FILE...`; anything else (a signal, a hang past 60 s, more than 2 GiB) fails.
+ * crafted/expected.tsv says which of the two for the files there.
  * Skips, and says so, where the collections are absent.
  * SPDX-License-Identifier: MIT */
 #include <dirent.h>
