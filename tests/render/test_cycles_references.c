@@ -41,8 +41,8 @@ typedef struct comparison {
 } comparison;
 
 /* The Principled node of Blender 3.4 as its glTF importer fills it, for materials without textures: specular .5
- * whatever KHR_materials_specular says (F0 = .04), Disney's diffuse base beside it, GGX without multiple scattering; its masking
- * is separable, which metals show at high roughness.  Emission and all else is two-sided. */
+ * whatever KHR_materials_specular says (F0 = .04), Disney's diffuse base beside it, GGX without multiple scattering;
+ * its masking is separable, which metals show at high roughness.  Emission and all else is two-sided. */
 static void peer_materials(scene *s)
 {
     for (size_t i = 0; i < s->n_materials; i++) {
