@@ -45,18 +45,12 @@ bool gltf_no_memory(const json_place *place)
     return json_fail(place, FACET_NO_MEMORY, "out of memory");
 }
 
-/* FNV-1a, 64 bit: a name for the input, not a defence against forgery. */
-#define FNV_START 14695981039346656037u
-#define FNV_PRIME 1099511628211u
-
 bool gltf_take_input(gltf *g, const json_place *place, const unsigned char *bytes, size_t size)
 {
     if (size > GLTF_INPUT_CAP - g->input_size)
         return json_fail(place, FACET_UNSUPPORTED, "brings the scene's files above %zu GiB", GLTF_INPUT_CAP >> 30);
     g->input_size += size;
-    uint64_t hash = g->scene->hash;
-    for (size_t i = 0; i < size; i++) hash = (hash ^ bytes[i])*FNV_PRIME;
-    g->scene->hash = hash;
+    scene_hash_bytes(g->scene, bytes, size);
     return true;
 }
 
@@ -264,7 +258,6 @@ facet_status gltf_read(const char *path, gltf_warning *warning, void *user, scen
               .user = user,
               .scene = scene_create()};
     if (!g.scene) return facet_error_set(why, FACET_NO_MEMORY, "", "out of memory");
-    g.scene->hash = FNV_START;
     const bool is_read = open_file(&g) && check_version(&g) && check_extensions(&g) && find_arrays(&g) &&
                          gltf_declare_buffers(&g) && gltf_declare_accessors(&g) && gltf_declare_nodes(&g) &&
                          make_tables(&g) && gltf_build_scene(&g);

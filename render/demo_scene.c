@@ -328,6 +328,29 @@ static facet_status add_camera(scene *s, facet_error *why)
     return no_memory(why, name);
 }
 
+/* Shapes, places, materials, lights and view into the scene's hash, so that pictures of another version are told
+ * apart. */
+static void hash_content(scene *s)
+{
+    for (size_t i = 0; i < s->n_meshes; i++) {
+        scene_hash_bytes(s, s->meshes[i].positions, s->meshes[i].n_vertices*sizeof s->meshes[i].positions[0]);
+        scene_hash_bytes(s, s->meshes[i].triangles, s->meshes[i].n_triangles*sizeof s->meshes[i].triangles[0]);
+    }
+    for (size_t i = 0; i < s->n_instances; i++)
+        scene_hash_bytes(s, s->instances[i].to_world, sizeof s->instances[i].to_world);
+    for (size_t i = 0; i < s->n_spheres; i++) {
+        scene_hash_bytes(s, s->spheres[i].center, sizeof s->spheres[i].center);
+        scene_hash_bytes(s, &s->spheres[i].radius, sizeof s->spheres[i].radius);
+    }
+    for (size_t i = 0; i < s->n_materials; i++) {
+        scene_hash_bytes(s, &s->materials[i].bsdf, sizeof s->materials[i].bsdf);
+        scene_hash_bytes(s, s->materials[i].emission, sizeof s->materials[i].emission);
+    }
+    const image *const sky = &s->environment.map;
+    scene_hash_bytes(s, sky->pixels, sky->width*sky->height*sky->n_channels*sizeof(float));
+    scene_hash_bytes(s, s->cameras[0].to_world, sizeof s->cameras[0].to_world);
+}
+
 static facet_status fill(scene *s, facet_error *why)
 {
     facet_status status = add_things(s, why);
@@ -335,6 +358,7 @@ static facet_status fill(scene *s, facet_error *why)
     for (size_t i = 0; i < COUNT(soft_boxes) && !status; i++) status = add_soft_box(s, &soft_boxes[i], why);
     if (!status) status = add_sky(s, why);
     if (!status) status = add_camera(s, why);
+    if (!status) hash_content(s);
     return status;
 }
 

@@ -32,7 +32,17 @@ facet_status material_default(const char *name, material *m)
 
 scene *scene_create(void)
 {
-    return calloc(1, sizeof(scene));
+    scene *s = calloc(1, sizeof *s);
+    if (s) s->hash = 14695981039346656037u; /* FNV's offset basis */
+    return s;
+}
+
+void scene_hash_bytes(scene *s, const void *bytes, size_t n)
+{
+    const unsigned char *const b = bytes;
+    uint64_t hash = s->hash;
+    for (size_t i = 0; i < n; i++) hash = (hash ^ b[i])*1099511628211u;
+    s->hash = hash;
 }
 
 void mesh_destroy(mesh *m)
@@ -167,7 +177,8 @@ bool scene_bounds(const scene *s, float low[3], float high[3])
             const float c[3] = {box[corner & 1][0], box[corner >> 1 & 1][1], box[corner >> 2][2]};
             float p[3];
             for (int k = 0; k < 3; k++)
-                p[k] = in->to_world[k][0]*c[0] + in->to_world[k][1]*c[1] + in->to_world[k][2]*c[2] + in->to_world[k][3];
+                p[k] = in->to_world[k][0]*c[0] + in->to_world[k][1]*c[1] + in->to_world[k][2]*c[2] +
+                       in->to_world[k][3];
             include_point(low, high, p);
         }
     }
@@ -191,7 +202,8 @@ facet_status scene_add_framing_camera(scene *s, size_t *index)
         }
     const float center[3] = {(low[0] + high[0])/2, (low[1] + high[1])/2, (low[2] + high[2])/2};
     float radius = sqrtf((high[0] - low[0])*(high[0] - low[0]) + (high[1] - low[1])*(high[1] - low[1]) +
-                         (high[2] - low[2])*(high[2] - low[2]))/2;
+                         (high[2] - low[2])*(high[2] - low[2]))/
+                   2;
     if (!(radius > 0)) radius = 1;
     /* Looks down by 15 degrees; 40 degrees of view take in the sphere around the box. */
     const float yfov = 0.6981317f, tilt = 0.2617994f;

@@ -32,7 +32,7 @@ typedef struct texture {
 
 /* A use of a texture: which coordinates, and KHR_texture_transform as uv' = M uv + t. */
 typedef struct texture_use {
-    size_t texture; /* index into scene.textures, or NONE */
+    size_t texture;  /* index into scene.textures, or NONE */
     unsigned uv_set; /* 0 or 1 */
     float transform[2][3];
 } texture_use;
@@ -51,14 +51,14 @@ typedef struct material {
     facet_bsdf bsdf; /* SURFACE_BSDF */
     /* SURFACE_METALLIC_ROUGHNESS and SURFACE_UNLIT: factors, linear */
     float base_color[4];
-    float metallic, roughness;  /* perceptual roughness, alpha = roughness^2 */
-    float ior;                  /* KHR_materials_ior, 1.5 */
-    float specular;             /* KHR_materials_specular: factor, 1 */
-    float specular_color[3];    /* and colour factor, 1,1,1 */
-    float transmission;         /* KHR_materials_transmission factor, 0; smooth glass when > 0 */
-    bool is_thin;               /* transmission without KHR_materials_volume: no refraction */
-    float normal_scale;         /* 1 */
-    float emission[3];          /* emissiveFactor * emissiveStrength: radiance [W/(m^2 sr)] */
+    float metallic, roughness; /* perceptual roughness, alpha = roughness^2 */
+    float ior;                 /* KHR_materials_ior, 1.5 */
+    float specular;            /* KHR_materials_specular: factor, 1 */
+    float specular_color[3];   /* and colour factor, 1,1,1 */
+    float transmission;        /* KHR_materials_transmission factor, 0; smooth glass when > 0 */
+    bool is_thin;              /* transmission without KHR_materials_volume: no refraction */
+    float normal_scale;        /* 1 */
+    float emission[3];         /* emissiveFactor * emissiveStrength: radiance [W/(m^2 sr)] */
     texture_use base_color_texture, metallic_roughness_texture, normal_texture, emissive_texture;
     alpha_mode alpha;
     float alpha_cutoff;
@@ -75,7 +75,7 @@ typedef struct mesh {
     float (*normals)[3];  /* unit */
     float (*tangents)[4]; /* unit xyz, handedness w = +-1 */
     float (*uv[2])[2];
-    float (*colors)[4];   /* linear RGBA, multiplied into the base colour */
+    float (*colors)[4]; /* linear RGBA, multiplied into the base colour */
     uint32_t (*triangles)[3];
     size_t material;
 } mesh;
@@ -117,17 +117,28 @@ typedef struct environment {
 } environment;
 
 typedef struct scene {
-    image *images;            size_t n_images;
-    texture *textures;        size_t n_textures;
-    material *materials;      size_t n_materials;
-    mesh *meshes;             size_t n_meshes;
-    instance *instances;      size_t n_instances;
-    sphere *spheres;          size_t n_spheres;
-    punctual_light *lights;   size_t n_lights;
-    camera *cameras;          size_t n_cameras;
+    image *images;
+    size_t n_images;
+    texture *textures;
+    size_t n_textures;
+    material *materials;
+    size_t n_materials;
+    mesh *meshes;
+    size_t n_meshes;
+    instance *instances;
+    size_t n_instances;
+    sphere *spheres;
+    size_t n_spheres;
+    punctual_light *lights;
+    size_t n_lights;
+    camera *cameras;
+    size_t n_cameras;
     struct environment environment; /* the tag keeps this valid C++ */
-    uint64_t hash;            /* of everything that was read, for provenance */
+    uint64_t hash;                  /* of everything that was read, for provenance */
 } scene;
+
+/* Folds bytes into the scene's hash (FNV-1a, 64 bit): a name for the input, not a defence against forgery. */
+void scene_hash_bytes(scene *s, const void *bytes, size_t n);
 
 /* An empty scene with a black environment. */
 scene *scene_create(void);
