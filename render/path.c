@@ -8,7 +8,8 @@
 /* Groups of numbers: one for the camera, then these for every scattering event. */
 enum { GROUP_CAMERA, GROUP_LIGHT, GROUP_SCATTER, GROUP_CHANCE, GROUPS_PER_EVENT = 3 };
 
-/* Roulette starts at this event: earlier, ending a path costs more in noise than it saves in time. */
+/* Roulette starts at this event.  Starts from 3 to 8 need the same time for the same error within 5 % on the scene
+ * `spheres` of bench/renders.c; 4 gives the sooner picture. */
 #define ROULETTE_START 4
 #define ROULETTE_MOST 0.95f /* the most likely survival, so that even white paths end */
 
@@ -210,7 +211,8 @@ static bool scatter(const path_context *c, path *p, const surface *at, real3 wo_
     if ((s.lobe & FACET_REFLECTION) && !is_same_side(at, wi, to_world(&at->shading, wo_local))) return false;
     p->throughput = mul3(p->throughput, vector_of(s.weight));
     if (!(max_of3(p->throughput) > 0)) return false;
-    if ((s.lobe & FACET_TRANSMISSION) && (s.wi[2] > 0) != (wo[2] > 0)) p->eta_scale /= kmax(s.weight[1], 1e-6f);
+    if ((s.lobe & FACET_TRANSMISSION) && (s.wi[2] > 0) != (wo[2] > 0))
+        p->eta_scale /= kmax(max_of3(vector_of(s.weight)), 1e-6f);
     p->origin = s.lobe & FACET_DELTA ? FROM_DELTA : FROM_LOBE;
     p->pdf_scatter = s.pdf;
     p->previous = at->position;
