@@ -48,12 +48,12 @@ static float uniform(uint64_t *state)
 
 static void fill_direction(float (*to)[N], int i, uint64_t *state)
 {
-    const float z   = 1 - uniform(state);
+    const float z = 1 - uniform(state);
     const float phi = 6.2831853f*uniform(state);
     const float sin = sqrtf(1 - z*z);
-    to[0][i]        = sin*cosf(phi);
-    to[1][i]        = sin*sinf(phi);
-    to[2][i]        = z;
+    to[0][i] = sin*cosf(phi);
+    to[1][i] = sin*sinf(phi);
+    to[2][i] = z;
 }
 
 static facet_dirs dirs(float (*d)[N])
@@ -75,10 +75,10 @@ static void run_scalar(const facet_bsdf *bsdf, verb what)
         } else if (what == PDF) {
             out[0][i] = facet_bsdf_pdf(bsdf, in, to);
         } else {
-            const float v[3]     = {u[0][i], u[1][i], u[2][i]};
+            const float v[3] = {u[0][i], u[1][i], u[2][i]};
             const facet_sample s = facet_bsdf_sample(bsdf, to, v);
             for (int k = 0; k < 3; k++) {
-                out[k][i]     = s.wi[k];
+                out[k][i] = s.wi[k];
                 out[4 + k][i] = s.weight[k];
             }
             out[3][i] = s.pdf;
@@ -88,10 +88,8 @@ static void run_scalar(const facet_bsdf *bsdf, verb what)
 
 static void run_batch(const facet_bsdf *bsdf, verb what)
 {
-    if (what == EVAL)
-        facet_bsdf_eval_batch(bsdf, N, dirs(wi), dirs(wo), (facet_rgb){out[0], out[1], out[2]});
-    else if (what == PDF)
-        facet_bsdf_pdf_batch(bsdf, N, dirs(wi), dirs(wo), out[0]);
+    if (what == EVAL) facet_bsdf_eval_batch(bsdf, N, dirs(wi), dirs(wo), (facet_rgb){out[0], out[1], out[2]});
+    else if (what == PDF) facet_bsdf_pdf_batch(bsdf, N, dirs(wi), dirs(wo), out[0]);
     else
         facet_bsdf_sample_batch(bsdf, N, dirs(wo), dirs(u),
                                 (facet_samples){out[0], out[1], out[2], out[3], out[4], out[5], out[6]});
@@ -104,7 +102,8 @@ static int compare_doubles(const void *a, const void *b)
 }
 
 /* Best and median nanoseconds per element. */
-static void measure(const facet_bsdf *bsdf, verb what, void (*run)(const facet_bsdf *, verb), double *best, double *median)
+static void measure(const facet_bsdf *bsdf, verb what, void (*run)(const facet_bsdf *, verb), double *best,
+                    double *median)
 {
     double ns[ROUNDS];
     for (int r = 0; r < ROUNDS; r++) {
@@ -119,7 +118,7 @@ static void measure(const facet_bsdf *bsdf, verb what, void (*run)(const facet_b
         ns[r] = elapsed*1e9/((double)repeats*N);
     }
     qsort(ns, ROUNDS, sizeof ns[0], compare_doubles);
-    *best   = ns[0];
+    *best = ns[0];
     *median = ns[ROUNDS/2];
 }
 

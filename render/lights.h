@@ -35,8 +35,8 @@ typedef struct light_sample {
     real3 direction; /* unit, to the light */
     real3 target;    /* the point to be visible, already off its surface; unused when at infinity */
     bool is_infinite, is_delta;
-    float pdf;       /* [1/sr] */
-    real3 radiance;  /* [W/(m^2 sr)]; for a delta light the irradiance on a plane across the light [W/m^2] */
+    float pdf;      /* [1/sr] */
+    real3 radiance; /* [W/(m^2 sr)]; for a delta light the irradiance on a plane across the light [W/m^2] */
 } light_sample;
 
 /* Draws a light and a point on it, for the point `from`; u: 32-bit fractions. */

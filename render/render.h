@@ -33,19 +33,19 @@ typedef struct render_progress {
 } render_progress;
 
 typedef struct render_settings {
-    size_t width, height;                    /* of the whole picture [pixel] */
-    size_t crop_x, crop_y, crop_w, crop_h;   /* the part to render; crop_w == 0: all of it */
-    size_t camera;                           /* index into scene.cameras */
-    uint32_t spp;                            /* samples per pixel, >= 1 */
-    uint32_t depth;                          /* most scattering events on a path; 0: lights seen directly */
-    uint32_t n_threads;                      /* 0: one per processor */
+    size_t width, height;                  /* of the whole picture [pixel] */
+    size_t crop_x, crop_y, crop_w, crop_h; /* the part to render; crop_w == 0: all of it */
+    size_t camera;                         /* index into scene.cameras */
+    uint32_t spp;                          /* samples per pixel, >= 1 */
+    uint32_t depth;                        /* most scattering events on a path; 0: lights seen directly */
+    uint32_t n_threads;                    /* 0: one per processor */
     uint32_t seed;
     enum strategy strategy;
     sampler_kind sampler;
-    const char *isa;                         /* Embree's instruction set: "sse2", "sse4.2", "avx", "avx2", "avx512";
+    const char *isa;     /* Embree's instruction set: "sse2", "sse4.2", "avx", "avx2", "avx512";
                                                 NULL: avx2 where there is one, else the best */
-    double time_limit;                       /* [s]; 0: none.  Checked between passes over the picture */
-    double noise_target;                     /* stop at this estimated relative error; 0: none */
+    double time_limit;   /* [s]; 0: none.  Checked between passes over the picture */
+    double noise_target; /* stop at this estimated relative error; 0: none */
     /* Called on the calling thread about ten times a second; false asks for an early end.  May be NULL. */
     bool (*progress)(void *user, const render_progress *state);
     void *user;
@@ -61,17 +61,17 @@ typedef struct bad_sample {
 } bad_sample;
 
 typedef struct render_result {
-    image picture;           /* F32 RGB, crop_w x crop_h, linear radiance */
-    uint32_t spp;            /* samples per pixel reached */
-    bool is_complete;        /* all of settings.spp; false after time, noise or a requested end */
+    image picture;    /* F32 RGB, crop_w x crop_h, linear radiance */
+    uint32_t spp;     /* samples per pixel reached */
+    bool is_complete; /* all of settings.spp; false after time, noise or a requested end */
     uint64_t n_paths, n_rays, n_shadow_rays;
-    uint64_t n_bad;          /* samples that were NaN or infinite */
+    uint64_t n_bad; /* samples that were NaN or infinite */
     bad_sample bad[RENDER_MAX_REPORTED];
-    double seconds;          /* rendering alone, wall clock */
+    double seconds;       /* rendering alone, wall clock */
     double cpu_seconds;   /* of the whole process while rendering */
-    double setup_seconds;    /* acceleration structure and light tables */
-    double noise;            /* as in render_progress */
-    const char *isa;         /* what Embree used; static storage */
+    double setup_seconds; /* acceleration structure and light tables */
+    double noise;         /* as in render_progress */
+    const char *isa;      /* what Embree used; static storage */
 } render_result;
 
 /* Renders.  On success *result holds the picture, which render_result_destroy frees. */

@@ -13,17 +13,17 @@ extern "C" {
 #endif
 
 typedef struct surface {
-    real3 position;      /* [m] */
-    real3 normal;        /* geometric, unit, on the front side */
-    float offset;        /* how far rays start from the surface, to clear its rounding errors [m] */
-    bool is_front;       /* seen from the front side */
-    bool scatters;       /* false: nothing but emission (unlit) */
-    bool transmits;      /* bsdf has a transmitting lobe */
+    real3 position; /* [m] */
+    real3 normal;   /* geometric, unit, on the front side */
+    float offset;   /* how far rays start from the surface, to clear its rounding errors [m] */
+    bool is_front;  /* seen from the front side */
+    bool scatters;  /* false: nothing but emission (unlit) */
+    bool transmits; /* bsdf has a transmitting lobe */
     const material *material;
-    frame shading;       /* n on the side of wo, but outwards for transmitting materials */
+    frame shading; /* n on the side of wo, but outwards for transmitting materials */
     facet_bsdf bsdf;
-    real3 emission;      /* radiance towards wo [W/(m^2 sr)] */
-    real3 unlit;         /* radiance of an unlit surface towards the camera */
+    real3 emission; /* radiance towards wo [W/(m^2 sr)] */
+    real3 unlit;    /* radiance of an unlit surface towards the camera */
 } surface;
 
 /* The surface at a hit of ray r; wo = -direction, unit.  Where a material is part smooth interface, part opaque,

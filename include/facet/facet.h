@@ -131,8 +131,7 @@ typedef struct facet_bsdf64 {
 } facet_bsdf64;
 
 FACET_API facet_status facet_bsdf_prepare(const facet_material *material, facet_bsdf *bsdf, facet_error *why);
-FACET_API facet_status facet_bsdf64_prepare(const facet_material *material, facet_bsdf64 *bsdf,
-                                            facet_error *why);
+FACET_API facet_status facet_bsdf64_prepare(const facet_material *material, facet_bsdf64 *bsdf, facet_error *why);
 
 /* The model metallic_roughness straight from its values at one shading point, for textured surfaces: no
  * checks, a few nanoseconds.  base_color, metallic, roughness, specular, specular_color in [0,1];
