@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Every header compiles alone: the public one as C11 and strict C++17, the others as C11 and as C++20 with the
+"""Every header compiles alone: the public one as C11 and strict C++17, the others as C11 and as C++17 with the
 compiler's extensions (designated initialisers, compound literals), and the kernels, which are C only, as C11 for
 float and double.
 
@@ -37,7 +37,7 @@ def variants(name, cxx):
         if name.startswith("include/"):
             yield "C++17", [cxx, "-x", "c++", "-std=c++17", "-Wpedantic"]
         else:
-            yield "C++20", [cxx, "-x", "c++", "-std=gnu++20"]
+            yield "C++17", [cxx, "-x", "c++", "-std=gnu++17"]
 
 
 def compile_alone(root, name, what, command):

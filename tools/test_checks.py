@@ -198,7 +198,7 @@ class Headers(CheckTest):
     @unittest.skipUnless(shutil.which(os.environ.get("CXX", "c++")), "no C++ compiler")
     def test_header_that_is_no_cxx(self):
         self.write("io/a.h", "#pragma once\nvoid f(int class);\n")
-        self.assert_one(check_headers.check(self.root), "C++20")
+        self.assert_one(check_headers.check(self.root), "C++17")
 
     @unittest.skipUnless(shutil.which(os.environ.get("CXX", "c++")), "no C++ compiler")
     def test_public_header_that_needs_newer_cxx(self):
