@@ -1,5 +1,5 @@
 /* scene.h: what there is to render, as plain data: meshes, instances, spheres, materials, textures,
- * lights, cameras, environment.  Filled by io/gltf.c or by demo_scene.c, read by world.c.
+ * lights, cameras, environment.  Filled by io/gltf.c or by demo_scene.c, read by the rest of render/.
  *
  * Right-handed, y up, metres, as glTF 2.0.  Every array is owned by the scene; indices refer to the
  * scene's own arrays, NONE means absent.  Nothing here is checked again later: whoever fills a scene
@@ -82,7 +82,7 @@ typedef struct mesh {
 
 typedef struct instance {
     size_t mesh;
-    float to_world[3][4]; /* p' = M (p,1); may mirror; singular ones are dropped by the world */
+    float to_world[3][4]; /* p' = M (p,1); may mirror; singular ones are dropped by the tracer */
 } instance;
 
 typedef struct sphere {

@@ -26,7 +26,7 @@ void sky_destroy(sky *s);
 /* Radiance from the unit direction. */
 real3 sky_radiance(const sky *s, real3 direction);
 
-/* A direction drawn from u[0] (texel) and v, w (in it); pdf [1/sr]. */
+/* A direction drawn from u (32-bit fraction: texel) and v, w (in [0,1): place in it); pdf [1/sr]. */
 real3 sky_sample(const sky *s, uint32_t u, float v, float w, float *pdf);
 float sky_pdf(const sky *s, real3 direction);
 

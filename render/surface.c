@@ -7,7 +7,7 @@
 #include "render/texture.h"
 
 /* A hit's distance and position are off by a few ulp of the largest coordinate involved; rays that start this
- * far off (relative to it) never met their own primitive again in 1e7 tries (tests/render/test_tracer.c). */
+ * far off (relative to it) never met their own primitive again in 1e6 tries (tests/render/test_tracer.c). */
 #define OFFSET_ULPS 3e-6f
 
 /* The viewer's mirror image leaves the true surface at this cosine at least (or almost at the viewer's own, where

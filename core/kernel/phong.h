@@ -12,7 +12,7 @@
 
 typedef microfacet_params phong_params;
 
-/* Below z p = LIMIT the series loses at most two digits by cancellation and has converged after TERMS
+/* Below z p = LIMIT and z = COS2 the series loses at most two digits by cancellation and has converged after TERMS
  * terms; above it the fraction has converged after LEVELS levels (checked for exponents 0 to 1e6). */
 #if FACET_REAL_IS_DOUBLE
 #define PHONG_SERIES_LIMIT    2.0f

@@ -12,8 +12,8 @@
  *   - colours are linear, Rec.709/sRGB primaries; angles in radians;
  *   - finite, unit directions never give NaN or Inf.
  *
- * The library keeps no state: every function may be called from any number of threads at once.  It
- * allocates nothing, prints nothing, and frees nothing.
+ * The library keeps no state but the choice of facet_isa_force: every other function may be called from
+ * any number of threads at once.  It allocates nothing, prints nothing, and frees nothing.
  *
  * SPDX-License-Identifier: MIT */
 #pragma once
