@@ -230,6 +230,9 @@ int options_parse(const command *c, int argc, char **argv, void *values, const c
             return fail(EXIT_USAGE, NULL, NULL, "unexpected argument `%s`; usage: facet %s [OPTION]...%s%s", argv[i],
                         c->name, *c->operands ? " " : "", c->operands);
         } else {
+            if (!argv[i][0])
+                return fail(EXIT_USAGE, NULL, NULL, "an empty argument; usage: facet %s [OPTION]...%s%s", c->name,
+                            *c->operands ? " " : "", c->operands);
             operands[n_operands++] = argv[i];
         }
     }

@@ -14,7 +14,7 @@ const char exit_status_help[] = "Exit status:\n"
                                 "  2    wrong usage\n"
                                 "  3    an input is missing, unreadable or invalid\n"
                                 "  4    the world failed: disk full, no memory, no such folder\n"
-                                "  130  interrupted; what was rendered is saved\n";
+                                "  130  interrupted; what was rendered is saved, if there is a sample of each pixel\n";
 
 int exit_status(facet_status status, origin from)
 {

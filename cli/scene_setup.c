@@ -108,7 +108,11 @@ static int set_environment(const render_options *o, scene *s)
     } else if (o->env) {
         facet_error why = {0};
         image raw = {0}, linear = {0};
-        if (image_read(o->env, &raw, &why)) return fail_with(FROM_INPUT, o->env, &why);
+        const facet_status read = image_read(o->env, &raw, &why);
+        if (read == FACET_IO && strchr(o->env, ','))
+            return fail(EXIT_USAGE, NULL, "--env", "`%s` is neither a file nor a radiance R,G,B of three numbers",
+                        o->env);
+        if (read) return fail_with(FROM_INPUT, o->env, &why);
         facet_status status = raw.type == PIXEL_F32 ? image_to_linear(&raw, &linear, &why) : FACET_OK;
         const bool is_radiance = raw.type == PIXEL_F32;
         image_destroy(&raw);

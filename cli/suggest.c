@@ -42,7 +42,7 @@ void suggestion_offer(suggestion *s, const char *name)
 {
     const size_t length = strlen(s->word);
     size_t distance = edit_distance(s->word, name);
-    if (length >= 2 && strncasecmp(s->word, name, length) == 0) distance = 1; /* an abbreviation */
+    if (distance > 0 && length >= 2 && strncasecmp(s->word, name, length) == 0) distance = 1; /* an abbreviation */
     if (distance < s->distance) {
         s->distance = distance;
         s->best = name;

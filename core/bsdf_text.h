@@ -84,8 +84,11 @@ SAMPLE NAME(sample)(const STORAGE *bsdf, const real wo[3], const real u[3])
     case MODEL_##name: s = name##_sample(p->of.name, load3(wo), load3(u)); break;
         FACET_MODELS(SAMPLE_ROW)
     }
-    return (SAMPLE){
-        .wi = {s.wi.x, s.wi.y, s.wi.z}, .pdf = s.pdf, .weight = {s.weight.x, s.weight.y, s.weight.z}, .lobe = s.lobe};
+    return (SAMPLE){.wi = {s.wi.x, s.wi.y, s.wi.z},
+                    .pdf = s.pdf,
+                    .weight = {s.weight.x, s.weight.y, s.weight.z},
+                    .lobe = s.lobe,
+                    .eta = s.eta};
 }
 
 TERMS NAME(terms)(const STORAGE *bsdf, const real m[3])

@@ -20,8 +20,9 @@
 /* X(name, summary, source) */
 #define FACET_MODELS(X)                                                                                                \
     X(lambert, "ideal diffuse reflector", "CS500 Project 3, diffuse term")                                             \
-    X(phong, "Phong distribution of normals, with its own exact Smith masking", "CS500 Project 3, D_p; errata 4, 8")   \
-    X(beckmann, "Beckmann (Gaussian) distribution of normals", "CS500 Project 3, D_b; Heitz 2014, eq. 54")             \
+    X(phong, "Phong distribution of normals, with its own exact Smith masking",                                        \
+      "CS500 Project 3, D_p, exponent of the sampler corrected")                                                       \
+    X(beckmann, "Beckmann (Gaussian) distribution of normals", "CS500 Project 3, D_b; Heitz 2014")                     \
     X(ggx, "GGX (Trowbridge-Reitz) distribution of normals", "CS500 Project 3, D_g; Dupuy and Benyoub 2023")           \
     X(glass, "smooth dielectric: mirror reflection and refraction", "CS500 Project 3, exact F; Walter 2007, s. 4")     \
     X(metallic_roughness, "glTF's material: dielectric over diffuse, blended towards a metal",                         \

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "io/file.h"
 #include "io/gltf_internal.h"
+#include "io/image_file.h"
 
 void gltf_warn(gltf *g, const json_place *place, const char *format, ...)
 {
@@ -188,6 +189,8 @@ static bool open_file(gltf *g)
     if (json_size > GLTF_JSON_CAP)
         return json_fail(&g->root, FACET_UNSUPPORTED, "has %zu MiB of JSON; at most %zu MiB are read", json_size >> 20,
                          GLTF_JSON_CAP >> 20);
+    if (image_is_known(bytes, size))
+        return json_fail(&g->root, FACET_BAD_FILE, "is a picture, not a scene; give a .gltf or .glb");
     if (!json_parse(json, json_size, &g->root, &g->error)) return false;
     return json_want_object(&g->root);
 }

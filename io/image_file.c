@@ -74,6 +74,13 @@ facet_status image_decode(const unsigned char *bytes, size_t size, image *pictur
                            "is not a picture; PNG, JPEG, Radiance HDR and OpenEXR are read");
 }
 
+bool image_is_known(const unsigned char *bytes, size_t size)
+{
+    for (size_t i = 0; i < sizeof KINDS/sizeof KINDS[0]; i++)
+        if (is_kind(&KINDS[i], bytes, size)) return true;
+    return false;
+}
+
 facet_status image_read(const char *path, image *picture, facet_error *why)
 {
     unsigned char *bytes = NULL;

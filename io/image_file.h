@@ -5,6 +5,7 @@
  * SPDX-License-Identifier: MIT */
 #pragma once
 
+#include <stdbool.h>
 #include <stddef.h>
 
 #include "facet/facet.h"
@@ -19,6 +20,9 @@ facet_status image_read(const char *path, image *picture, facet_error *why);
 
 /* Reads a picture that lies in memory (a buffer view, a data URI). */
 facet_status image_decode(const unsigned char *bytes, size_t size, image *picture, facet_error *why);
+
+/* Whether the bytes begin as a picture of some kind does, read here or not. */
+bool image_is_known(const unsigned char *bytes, size_t size);
 
 /* The decoders that image_decode chooses among by content. */
 facet_status hdr_decode(const unsigned char *bytes, size_t size, image *picture, facet_error *why);

@@ -28,6 +28,9 @@ typedef struct emitter {
 /* Up to this many emitters are weighed anew for each point that is lit; more are chosen by their power. */
 #define MOST_WEIGHED 32
 
+/* More than this are refused: 10 GiB of tables, and an index of 32 bits is enough. */
+#define MOST_EMITTERS (1u << 26)
+
 struct light_set {
     const scene *scene;
     sky sky;
@@ -41,6 +44,7 @@ struct light_set {
 
 static facet_status add_emitter(light_set *set, const emitter *e)
 {
+    if (set->n_emitters == MOST_EMITTERS) return FACET_UNSUPPORTED;
     if (set->n_emitters == set->capacity) {
         const uint32_t capacity = set->capacity ? 2*set->capacity : 16;
         emitter *larger = realloc(set->emitters, capacity*sizeof *larger);
@@ -96,7 +100,8 @@ static facet_status add_instance(light_set *set, size_t index)
         const double mean = mean_emission(s, m, i);
         e.strength = (float)mean;
         e.power = (double)PI*(double)e.area*mean*(e.is_double_sided ? 2 : 1);
-        if (add_emitter(set, &e)) return FACET_NO_MEMORY;
+        const facet_status status = add_emitter(set, &e);
+        if (status) return status;
     }
     return FACET_OK;
 }
@@ -141,20 +146,18 @@ static facet_status collect(light_set *set)
         for (int k = 0; k < 3; k++) radius2 += 0.25*((double)high[k] - low[k])*((double)high[k] - low[k]);
         if (!(radius2 > 0 && isfinite(radius2))) radius2 = 1;
     }
-    for (size_t i = 0; i < s->n_instances; i++)
-        if (add_instance(set, i)) return FACET_NO_MEMORY;
-    for (size_t i = 0; i < s->n_spheres; i++)
-        if (add_sphere(set, i)) return FACET_NO_MEMORY;
-    for (size_t i = 0; i < s->n_lights; i++)
-        if (add_punctual(set, i, sqrt(radius2))) return FACET_NO_MEMORY;
+    facet_status status = FACET_OK;
+    for (size_t i = 0; i < s->n_instances && !status; i++) status = add_instance(set, i);
+    for (size_t i = 0; i < s->n_spheres && !status; i++) status = add_sphere(set, i);
+    for (size_t i = 0; i < s->n_lights && !status; i++) status = add_punctual(set, i, sqrt(radius2));
     set->sky_emitter = NONE;
-    if (set->sky.mean > 0) {
+    if (!status && set->sky.mean > 0) {
         set->sky_emitter = set->n_emitters;
         const double extent = 4*(double)PI*(double)PI*radius2;
         const emitter e = {.kind = EMITTER_SKY, .power = extent*set->sky.mean, .strength = (float)set->sky.mean};
-        if (add_emitter(set, &e)) return FACET_NO_MEMORY;
+        status = add_emitter(set, &e);
     }
-    return FACET_OK;
+    return status;
 }
 
 /* The table by which many emitters are chosen. */
@@ -180,7 +183,9 @@ facet_status light_set_create(const scene *s, light_set **result, facet_error *w
     if (status == FACET_OK) {
         status = set->first_of_instance && set->of_sphere ? collect(set) : FACET_NO_MEMORY;
         if (status == FACET_OK) status = tabulate(set);
-        if (status) facet_error_set(why, status, "lights", "no memory for the light tables");
+        if (status == FACET_UNSUPPORTED)
+            facet_error_set(why, status, "lights", "more than %u emitting triangles; let fewer emit", MOST_EMITTERS);
+        else if (status) facet_error_set(why, status, "lights", "no memory for the light tables");
     }
     if (status) {
         light_set_destroy(set);

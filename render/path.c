@@ -211,8 +211,7 @@ static bool scatter(const path_context *c, path *p, const surface *at, real3 wo_
     if ((s.lobe & FACET_REFLECTION) && !is_same_side(at, wi, to_world(&at->shading, wo_local))) return false;
     p->throughput = mul3(p->throughput, vector_of(s.weight));
     if (!(max_of3(p->throughput) > 0)) return false;
-    if ((s.lobe & FACET_TRANSMISSION) && (s.wi[2] > 0) != (wo[2] > 0))
-        p->eta_scale /= kmax(max_of3(vector_of(s.weight)), 1e-6f);
+    p->eta_scale *= s.eta*s.eta;
     p->origin = s.lobe & FACET_DELTA ? FROM_DELTA : FROM_LOBE;
     p->pdf_scatter = s.pdf;
     p->previous = at->position;

@@ -219,7 +219,7 @@ static surface triangle_surface(const scene *s, const hit *h, real3 wo, float ch
         tangent = map_vector(in->to_world, uv_tangent(m, &w, uv_set, cross3(sub3(p1, p0), sub3(p2, p0)), &handedness));
         handedness *= sign;
     }
-    if (mat->normal_texture.texture != NONE && mat->kind == SURFACE_METALLIC_ROUGHNESS)
+    if (mat->normal_texture.texture != NONE && mat->kind != SURFACE_UNLIT)
         n = mapped_normal(s, m, mat, &w, frame_around(n, tangent, handedness));
     set_frame(&at, n, tangent, handedness, wo);
     return at;

@@ -3,7 +3,7 @@
  *
  * [cs500]   CS500 Project 3: D_b, G_1 and the sampling of Beckmann.
  * [walter07] Walter et al., Microfacet models for refraction through rough surfaces, 2007, section 5.2.
- * [heitz14] Heitz, Understanding the masking-shadowing function, JCGT 2014, eq. 54, 63 (exact Lambda).
+ * [heitz14] Heitz, Understanding the masking-shadowing function, JCGT 2014 (exact Lambda).
  * [heitz-deon14] Heitz and d'Eon, Importance sampling microfacet-based BSDFs using the distribution of
  *           visible normals, 2014 (stretching; slopes of visible normals).
  * SPDX-License-Identifier: MIT */
@@ -35,7 +35,7 @@ KERNEL real beckmann_D(real3 wm, real alpha_x, real alpha_y)
     return wm.z > 0 ? e*INV_PI/(alpha_x*alpha_y)/z2/z2 : (real)0;
 }
 
-/* Lambda(v) = exp(-a^2) (1/(a sqrt(pi)) - erfcx(a))/2, a the stretched cotangent.  [heitz14, eq. 54].
+/* Lambda(v) = exp(-a^2) (1/(a sqrt(pi)) - erfcx(a))/2, a the stretched cotangent.  [heitz14].
  * Departure: written with W(a) = 1 - sqrt(pi) a erfcx(a), which has no cancellation. */
 KERNEL real beckmann_Lambda(real3 v, real alpha_x, real alpha_y)
 {

@@ -61,6 +61,7 @@ KERNEL bsdf_sample glass_sample(glass_params p, real3 wo, real3 u)
     s.pdf    = is_valid ? (reflects ? F : 1 - F) : (real)0;
     s.weight = select3(is_valid, select3(reflects, splat3(1), through), splat3(0));
     s.lobe   = LOBE_DELTA | (reflects ? LOBE_REFLECTION : LOBE_TRANSMISSION);
+    s.eta    = reflects | is_thin ? (real)1 : eta;
     return s;
 }
 

@@ -32,6 +32,7 @@ KERNEL bsdf_sample lambert_sample(lambert_params p, real3 wo, real3 u)
     s.pdf    = is_valid ? INV_PI*wi.z : (real)0;
     s.weight = select3(is_valid, p.kd, splat3(0));
     s.lobe   = LOBE_REFLECTION | LOBE_DIFFUSE;
+    s.eta    = 1;
     return s;
 }
 

@@ -60,6 +60,7 @@ typedef struct bsdf_sample {
     real pdf;
     real3 weight;
     int lobe;
+    real eta; /* index of refraction on wi's side over that on wo's; 1 unless the sample refracts */
 } bsdf_sample;
 
 /* (wi + wo)/|wi + wo|; the normal where the two cancel. */
@@ -156,6 +157,7 @@ KERNEL bsdf_sample microfacet_complete(microfacet_params p, real3 wi, real3 wo, 
     s.pdf    = is_valid ? pdf : (real)0;
     s.weight = select3(is_valid, scale3(inv, f), splat3(0));
     s.lobe   = LOBE_REFLECTION | (is_diffuse ? LOBE_DIFFUSE : LOBE_GLOSSY);
+    s.eta    = 1;
     return s;
 }
 

@@ -35,7 +35,7 @@ KERNEL real phong_tan2(real3 wm, real alpha_x, real alpha_y)
 }
 
 /* D(wm), 1/sr.  [cs500, D_p], cos^n written as exp(-n/2 log1p(tan^2)), exact near the normal; a stretch
- * divides the density of slopes by its determinant: D cos_m^4 = P22, [heitz14, eq. 28]. */
+ * divides the density of slopes by its determinant: D cos_m^4 = P22, [heitz14]. */
 KERNEL real phong_D(real3 wm, real exponent, real alpha_x, real alpha_y)
 {
     real tan2     = phong_tan2(wm, alpha_x, alpha_y);

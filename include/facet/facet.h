@@ -134,7 +134,7 @@ FACET_API facet_status facet_bsdf_prepare(const facet_material *material, facet_
 FACET_API facet_status facet_bsdf64_prepare(const facet_material *material, facet_bsdf64 *bsdf, facet_error *why);
 
 /* The model metallic_roughness straight from its values at one shading point, for textured surfaces: no
- * checks, a few nanoseconds.  base_color, metallic, roughness, specular, specular_color in [0,1];
+ * checks, a few nanoseconds.  base_color, metallic, roughness, specular in [0,1]; specular_color >= 0;
  * dielectric_F0 = ((ior - 1)/(ior + 1))^2. */
 FACET_API facet_bsdf facet_bsdf_metallic_roughness(const float base_color[3], float metallic, float roughness,
                                                    float dielectric_F0, float specular, const float specular_color[3]);
@@ -155,12 +155,14 @@ typedef struct facet_sample {
     float pdf;       /* [1/sr]; 0: there is no sample, and weight is 0 */
     float weight[3]; /* eval/pdf */
     int lobe;        /* FACET_REFLECTION | FACET_GLOSSY, ... */
+    float eta;       /* index of refraction on wi's side over that on wo's; 1 unless the sample refracts */
 } facet_sample;
 typedef struct facet_sample64 {
     double wi[3];
     double pdf;
     double weight[3];
     int lobe;
+    double eta;
 } facet_sample64;
 
 /* f(wi,wo) |cos theta_i| as RGB [1/sr].  wi, wo: unit vectors. */
