@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "render/image_metrics.h"
+#include "render/texture.h"
 #include "render/view.h"
 
 static const double PI = 3.14159265358979323846;
@@ -202,7 +203,7 @@ static void prepare(const planes *p, const image *picture, channels *c, float *g
     const float(*pixel)[3] = (const float(*)[3])picture->pixels;
     for (size_t i = 0; i < n; i++) {
         float rgb[3], ycxcz[3];
-        for (int k = 0; k < 3; k++) rgb[k] = srgb_decode(fminf(fmaxf(pixel[i][k], 0), 1));
+        for (int k = 0; k < 3; k++) rgb[k] = srgb_to_linear(fminf(fmaxf(pixel[i][k], 0), 1));
         rgb_to_ycxcz(rgb, ycxcz);
         c->y[i] = ycxcz[0];
         c->cx[i] = ycxcz[1];

@@ -96,7 +96,7 @@ static facet_status add_instance(light_set *set, size_t index)
         e.area = 0.5f*length3(cross3(e.edge1, e.edge2));
         e.normal = scale3(sign, normal_of_edges(e.edge1, e.edge2));
         e.is_double_sided = mat->is_double_sided;
-        e.offset = 3e-6f*kmax(max_abs3(p0), kmax(max_abs3(p1), max_abs3(p2)));
+        e.offset = RELATIVE_OFFSET*kmax(max_abs3(p0), kmax(max_abs3(p1), max_abs3(p2)));
         const double mean = mean_emission(s, m, i);
         e.strength = (float)mean;
         e.power = (double)PI*(double)e.area*mean*(e.is_double_sided ? 2 : 1);
@@ -117,8 +117,9 @@ static facet_status add_sphere(light_set *set, size_t index)
     const emitter e = {.kind = EMITTER_SPHERE,
                        .primitive = (uint32_t)index,
                        .is_double_sided = mat->is_double_sided,
-                       .offset = 3e-6f*kmax(max_abs3(vector_of(sp->center)), sp->radius),
-                       .power = 4*(double)PI*(double)PI*(double)sp->radius*(double)sp->radius*L,
+                       .offset = RELATIVE_OFFSET*kmax(max_abs3(vector_of(sp->center)), sp->radius),
+                       .power = (mat->is_double_sided ? 8 : 4)*(double)PI*(double)PI*(double)sp->radius*
+                                (double)sp->radius*L,
                        .strength = (float)L};
     return add_emitter(set, &e);
 }

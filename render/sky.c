@@ -10,8 +10,7 @@
 static real3 texel_at(const environment *e, size_t x, size_t y)
 {
     const float *c = (const float *)e->map.pixels + 3*(y*e->map.width + x);
-    const real3 t = make3(c[0], c[1], c[2]);
-    return t;
+    return make3(c[0], c[1], c[2]);
 }
 
 /* A texel as it is used: black where it is not a finite non-negative colour. */
@@ -76,7 +75,7 @@ facet_status sky_create(const environment *e, sky *result, facet_error *why)
     *result = (sky){.environment = e, .mean = (double)luminance(vector_of(e->scale))};
     if (!e->map.pixels) return FACET_OK;
     const size_t w = e->map.width, h = e->map.height;
-    if (w*h > UINT32_MAX/2) return facet_error_set(why, FACET_NO_MEMORY, "environment", "more than 2^31 texels");
+    if (w*h > UINT32_MAX/2) return facet_error_set(why, FACET_UNSUPPORTED, "environment", "more than 2^31 texels");
     double *weights = malloc(w*h*sizeof *weights);
     if (!weights) return facet_error_set(why, FACET_NO_MEMORY, "environment", "no memory for its sampling table");
     double sum = 0;

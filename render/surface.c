@@ -6,10 +6,6 @@
 
 #include "render/texture.h"
 
-/* A hit's distance and position are off by a few ulp of the largest coordinate involved; rays that start this
- * far off (relative to it) never met their own primitive again in 1e6 tries (tests/render/test_tracer.c). */
-#define OFFSET_ULPS 3e-6f
-
 /* The viewer's mirror image leaves the true surface at this cosine at least (or almost at the viewer's own, where
  * that is less). */
 #define LEAST_MIRROR_COSINE 0.01f
@@ -117,7 +113,6 @@ static real3 uv_tangent(const mesh *m, const weights *at, unsigned uv_set, real3
 static void set_material(surface *at, const scene *s, const mesh *m, const material *mat, const weights *w,
                          float choice)
 {
-    at->material = mat;
     at->scatters = mat->kind != SURFACE_UNLIT;
     const bool emits = at->is_front || mat->is_double_sided;
     if (emits) at->emission = m ? emission_at(s, m, mat, w) : vector_of(mat->emission);
@@ -199,7 +194,8 @@ static surface triangle_surface(const scene *s, const hit *h, real3 wo, float ch
     const float column = kmax(max_abs3(map_column(in->to_world, 0)),
                               kmax(max_abs3(map_column(in->to_world, 1)), max_abs3(map_column(in->to_world, 2))));
     const float local = kmax(max_abs3(p0), kmax(max_abs3(p1), max_abs3(p2)));
-    at.offset = OFFSET_ULPS*kmax(max_abs3(at.position), kmax(column*local, max_abs3(map_column(in->to_world, 3))));
+    at.offset = RELATIVE_OFFSET*
+                kmax(max_abs3(at.position), kmax(column*local, max_abs3(map_column(in->to_world, 3))));
     set_material(&at, s, m, mat, &w, choice);
 
     real3 n = at.normal;
@@ -232,7 +228,7 @@ static surface sphere_surface(const scene *s, const hit *h, real3 wo, real3 near
     const real3 outward = normalize3(sub3(near, center));
     surface at = {.position = madd3(center, sp->radius, outward), .normal = outward};
     at.is_front = dot3(outward, wo) > 0;
-    at.offset = OFFSET_ULPS*kmax(max_abs3(at.position), sp->radius);
+    at.offset = RELATIVE_OFFSET*kmax(max_abs3(at.position), sp->radius);
     set_material(&at, s, NULL, &s->materials[sp->material], NULL, choice);
     /* Tangents run around the y axis. */
     set_frame(&at, outward, make3(outward.z, 0, -outward.x), 1, wo);

@@ -12,6 +12,10 @@
 extern "C" {
 #endif
 
+/* A hit's distance and position are off by a few ulp of the largest coordinate involved; rays that start this
+ * far off (relative to it) never met their own primitive again in 1e6 tries (tests/render/test_tracer.c). */
+#define RELATIVE_OFFSET 3e-6f
+
 typedef struct surface {
     real3 position; /* [m] */
     real3 normal;   /* geometric, unit, on the front side */
@@ -19,8 +23,7 @@ typedef struct surface {
     bool is_front;  /* seen from the front side */
     bool scatters;  /* false: nothing but emission (unlit) */
     bool transmits; /* bsdf has a transmitting lobe */
-    const material *material;
-    frame shading; /* n on the side of wo, but outwards for transmitting materials */
+    frame shading;  /* n on the side of wo, but outwards for transmitting materials */
     facet_bsdf bsdf;
     real3 emission; /* radiance towards wo [W/(m^2 sr)] */
     real3 unlit;    /* radiance of an unlit surface towards the camera */

@@ -23,6 +23,7 @@
 #include <string.h>
 
 #include "core/error.h"
+#include "render/texture.h"
 
 static const float MIDDLE_GREY = 0.18f;
 
@@ -40,11 +41,6 @@ bool view_find(const char *name, view *found)
 float srgb_encode(float linear)
 {
     return linear <= 0.0031308f ? 12.92f*linear : 1.055f*powf(linear, 1/2.4f) - 0.055f;
-}
-
-float srgb_decode(float encoded)
-{
-    return encoded <= 0.04045f ? encoded/12.92f : powf((encoded + 0.055f)/1.055f, 2.4f);
 }
 
 /* ---- filmic ------------------------------------------------------------------------------------ */
@@ -139,8 +135,8 @@ facet_status view_picture(view v, float exposure, const image *linear, pixel_typ
 static float linear_value(const image *picture, size_t i)
 {
     switch (picture->type) {
-    case PIXEL_U8: return srgb_decode((float)((const uint8_t *)picture->pixels)[i]/255);
-    case PIXEL_U16: return srgb_decode((float)((const uint16_t *)picture->pixels)[i]/65535);
+    case PIXEL_U8: return srgb_to_linear((float)((const uint8_t *)picture->pixels)[i]/255);
+    case PIXEL_U16: return srgb_to_linear((float)((const uint16_t *)picture->pixels)[i]/65535);
     case PIXEL_F32: break;
     }
     return ((const float *)picture->pixels)[i];

@@ -20,9 +20,8 @@ typedef enum view { VIEW_STANDARD, VIEW_FILMIC, VIEW_AGX } view;
 /* "standard", "filmic", "agx"; false for any other name. */
 bool view_find(const char *name, view *found);
 
-/* The sRGB curve (IEC 61966-2-1) on [0,1] and its inverse. */
+/* The sRGB curve (IEC 61966-2-1) on [0,1], the inverse of texture.h's srgb_to_linear. */
 float srgb_encode(float linear);
-float srgb_decode(float encoded);
 
 /* One pixel, after multiplication by 2^exposure. */
 void view_pixel(view v, float exposure, const float linear[3], float display[3]);

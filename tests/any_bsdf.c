@@ -68,7 +68,7 @@ facet_sample64 any_sample(const any_bsdf *bsdf, const double wo[3], const double
     round3(wo, out);
     round3(u, numbers);
     const facet_sample s = facet_bsdf_sample(&bsdf->single, out, numbers);
-    facet_sample64 wide = {.pdf = (double)s.pdf, .lobe = s.lobe};
+    facet_sample64 wide = {.pdf = (double)s.pdf, .lobe = s.lobe, .eta = (double)s.eta};
     for (int k = 0; k < 3; k++) {
         wide.wi[k] = (double)s.wi[k];
         wide.weight[k] = (double)s.weight[k];

@@ -188,6 +188,26 @@ static void mirrors_keep_the_side_and_weigh_one(void **state)
     }
 }
 
+/* eta tells which index the sample went to, over which it came from: what transmitted radiance is divided by twice. */
+static void samples_tell_the_index_ratio(void **state)
+{
+    (void)state;
+    facet_material material;
+    facet_bsdf64 solid, thin;
+    assert_int_equal(facet_material_parse("glass ior=1.5 tint=.25", &material, NULL), FACET_OK);
+    assert_int_equal(facet_bsdf64_prepare(&material, &solid, NULL), FACET_OK);
+    assert_int_equal(facet_material_parse("glass ior=1.5 tint=.25 wall=thin", &material, NULL), FACET_OK);
+    assert_int_equal(facet_bsdf64_prepare(&material, &thin, NULL), FACET_OK);
+    const double outside[3] = {0.6, 0, 0.8}, inside[3] = {0.28, 0, -0.96}, reflects[3] = {0.5, 0.5, 0},
+                 refracts[3] = {0.5, 0.5, 0.9};
+    assert_true(facet_bsdf64_sample(&solid, outside, refracts).eta == 1.5);
+    assert_true(facet_bsdf64_sample(&solid, inside, refracts).eta == 1/1.5);
+    assert_true(facet_bsdf64_sample(&solid, outside, reflects).eta == 1);
+    assert_true(facet_bsdf64_sample(&thin, outside, refracts).eta == 1);
+    const facet_sample64 s = facet_bsdf64_sample(&solid, outside, refracts);
+    assert_true(s.weight[0] == 0.25*(1/(1.5*1.5)));
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -198,6 +218,7 @@ int main(void)
         cmocka_unit_test(refraction_is_reversible),
         cmocka_unit_test(a_thin_wall_does_not_bend_light),
         cmocka_unit_test(mirrors_keep_the_side_and_weigh_one),
+        cmocka_unit_test(samples_tell_the_index_ratio),
     };
     return cmocka_run_group_tests_name("glass", tests, NULL, NULL);
 }

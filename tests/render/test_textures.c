@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "render/surface.h"
 #include "tests/draws.h"
 #include "tests/scene_builder.h"
 
@@ -174,6 +175,31 @@ static void wild_coordinates_stay_inside(void **state)
     scene_destroy(s);
 }
 
+/* A normal map turns the shading frame whatever the surface's model; (191, 128, 238)/255 decodes to (.498, .004, .867)
+ * up to half a code. */
+static void normal_maps_turn_every_scattering_material(void **state)
+{
+    (void)state;
+    static const unsigned char leaning[4] = {191, 128, 238, 255};
+    scene *s = build_scene();
+    const size_t texture_index = build_texture(s, 1, 1, leaning, true);
+    const size_t materials[2] = {build_material(s, "ggx alpha=.2", 0, false), build_gltf_material(s, .5f, 0, .5f)};
+    for (size_t i = 0; i < 2; i++) {
+        material *m = &s->materials[materials[i]];
+        m->normal_texture.texture = texture_index;
+        m->normal_scale = 1;
+        build_quad(s, materials[i], (const float[3]){0, 0, 0}, (const float[3]){1, 0, 0}, (const float[3]){0, 1, 0});
+        const hit h = {.t = 1, .u = .25f, .v = .25f, .instance = (uint32_t)i, .primitive = 0};
+        const ray r = {.origin = {.5f, .5f, 1}, .direction = {0, 0, -1}};
+        const surface at = surface_at(s, &r, &h, make3(0, 0, 1), 0);
+        /* The tangent is the direction of growing u: +x here. */
+        const double tolerance = 1.0/255;
+        assert_true(fabs((double)at.shading.n.x - .498) < tolerance && fabs((double)at.shading.n.z - .867) < tolerance);
+        assert_true(at.normal.z == 1);
+    }
+    scene_destroy(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -185,6 +211,7 @@ int main(void)
         cmocka_unit_test(sixteen_bits_and_floats_keep_their_precision),
         cmocka_unit_test(missing_channels_are_grey_and_opaque),
         cmocka_unit_test(wild_coordinates_stay_inside),
+        cmocka_unit_test(normal_maps_turn_every_scattering_material),
     };
     return cmocka_run_group_tests_name("textures", tests, NULL, NULL);
 }
