@@ -1,6 +1,6 @@
-/* kernels.c: nanoseconds per eval, pdf and sample of each model, one call at a time and in batches.
+/* kernels.c: nanoseconds per eval, pdf, both at once, and sample of each model, one call at a time and in batches.
  *
- *     kernels [--csv FILE]
+ *     kernels [--csv FILE | SPEC]      (SPEC: only the materials that begin with this)
  *
  * One core; n = 2048 directions that stay in cache, each figure the best and the median of 25 rounds of at
  * least a millisecond.  Batches are checked against single calls, bit for bit, before they are timed.
@@ -61,8 +61,8 @@ static facet_dirs dirs(float (*d)[N])
     return (facet_dirs){d[0], d[1], d[2]};
 }
 
-typedef enum verb { EVAL, PDF, SAMPLE } verb;
-static const char *const verb_names[] = {"eval", "pdf", "sample"};
+typedef enum verb { EVAL, PDF, EVAL_PDF, SAMPLE, VERBS } verb;
+static const char *const verb_names[] = {"eval", "pdf", "eval_pdf", "sample"};
 
 static void run_scalar(const facet_bsdf *bsdf, verb what)
 {
@@ -74,6 +74,10 @@ static void run_scalar(const facet_bsdf *bsdf, verb what)
             for (int k = 0; k < 3; k++) out[k][i] = f[k];
         } else if (what == PDF) {
             out[0][i] = facet_bsdf_pdf(bsdf, in, to);
+        } else if (what == EVAL_PDF) {
+            float f[3];
+            out[3][i] = facet_bsdf_eval_pdf(bsdf, in, to, f);
+            for (int k = 0; k < 3; k++) out[k][i] = f[k];
         } else {
             const float v[3] = {u[0][i], u[1][i], u[2][i]};
             const facet_sample s = facet_bsdf_sample(bsdf, to, v);
@@ -90,6 +94,8 @@ static void run_batch(const facet_bsdf *bsdf, verb what)
 {
     if (what == EVAL) facet_bsdf_eval_batch(bsdf, N, dirs(wi), dirs(wo), (facet_rgb){out[0], out[1], out[2]});
     else if (what == PDF) facet_bsdf_pdf_batch(bsdf, N, dirs(wi), dirs(wo), out[0]);
+    else if (what == EVAL_PDF)
+        facet_bsdf_eval_pdf_batch(bsdf, N, dirs(wi), dirs(wo), (facet_rgb){out[0], out[1], out[2]}, out[3]);
     else
         facet_bsdf_sample_batch(bsdf, N, dirs(wo), dirs(u),
                                 (facet_samples){out[0], out[1], out[2], out[3], out[4], out[5], out[6]});
@@ -132,8 +138,9 @@ static void report(FILE *csv, const char *spec, verb what, const char *variant, 
 int main(int argc, char **argv)
 {
     FILE *csv = argc == 3 && strcmp(argv[1], "--csv") == 0 ? fopen(argv[2], "w") : NULL;
-    if (argc != 1 && !csv) {
-        fprintf(stderr, "usage: kernels [--csv FILE]\n");
+    const char *only = argc == 2 ? argv[1] : "";
+    if (argc > 2 && !csv) {
+        fprintf(stderr, "usage: kernels [--csv FILE | SPEC]\n");
         return 2;
     }
     if (csv) fprintf(csv, "material,verb,variant,n,best_ns,median_ns,compiler\n");
@@ -145,6 +152,7 @@ int main(int argc, char **argv)
     }
     printf("%-38s %-7s %-8s %8s %8s  [ns]\n", "material", "verb", "variant", "best", "median");
     for (size_t m = 0; m < sizeof specs/sizeof specs[0]; m++) {
+        if (strncmp(specs[m], only, strlen(only)) != 0) continue;
         facet_material material;
         facet_bsdf bsdf;
         facet_error why;
@@ -152,7 +160,7 @@ int main(int argc, char **argv)
             fprintf(stderr, "%s: %s: %s\n", specs[m], why.place, why.text);
             return 1;
         }
-        for (int v = EVAL; v <= SAMPLE; v++) {
+        for (int v = EVAL; v < VERBS; v++) {
             static float expected[7][N];
             double best, median;
             memset(out, 0, sizeof out);

@@ -58,17 +58,23 @@ facet_status facet_isa_force(const char *name)
 void facet_bsdf_eval_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f)
 {
     const prepared *p = (const prepared *)(const void *)bsdf;
-    loops()->eval[p->model](&p->of, n, wi, wo, f);
+    loops()->eval[p->kernel](p, n, wi, wo, f);
 }
 
 void facet_bsdf_pdf_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wi, facet_dirs wo, float *pdf)
 {
     const prepared *p = (const prepared *)(const void *)bsdf;
-    loops()->pdf[p->model](&p->of, n, wi, wo, pdf);
+    loops()->pdf[p->kernel](p, n, wi, wo, pdf);
+}
+
+void facet_bsdf_eval_pdf_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f, float *pdf)
+{
+    const prepared *p = (const prepared *)(const void *)bsdf;
+    loops()->eval_pdf[p->kernel](p, n, wi, wo, f, pdf);
 }
 
 void facet_bsdf_sample_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wo, facet_dirs u, facet_samples samples)
 {
     const prepared *p = (const prepared *)(const void *)bsdf;
-    loops()->sample[p->model](&p->of, n, wo, u, samples);
+    loops()->sample[p->kernel](p, n, wo, u, samples);
 }

@@ -11,14 +11,18 @@ extern "C" {
 #endif
 
 /* At least the number of rows of model_table.h (checked by batch_text.h). */
-#define BATCH_MODELS 16
+#define BATCH_KERNELS 16
 
-/* Loops by model, in the order of model_table.h; params points to the model's prepared parameters. */
+/* Loops by kernel, in the order of model_table.h. */
+struct prepared;
 typedef struct batch_loops {
     const char *name;
-    void (*eval[BATCH_MODELS])(const void *params, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f);
-    void (*pdf[BATCH_MODELS])(const void *params, size_t n, facet_dirs wi, facet_dirs wo, float *pdf);
-    void (*sample[BATCH_MODELS])(const void *params, size_t n, facet_dirs wo, facet_dirs u, facet_samples samples);
+    void (*eval[BATCH_KERNELS])(const struct prepared *p, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f);
+    void (*pdf[BATCH_KERNELS])(const struct prepared *p, size_t n, facet_dirs wi, facet_dirs wo, float *pdf);
+    void (*eval_pdf[BATCH_KERNELS])(const struct prepared *p, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f,
+                                    float *pdf);
+    void (*sample[BATCH_KERNELS])(const struct prepared *p, size_t n, facet_dirs wo, facet_dirs u,
+                                  facet_samples samples);
 } batch_loops;
 
 extern const batch_loops facet_batch_base;

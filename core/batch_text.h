@@ -9,17 +9,17 @@
 #include "model_table.h"
 #include "prepared.h"
 
-_Static_assert((int)MODEL_COUNT <= BATCH_MODELS, "batch.h has room for every model");
+_Static_assert((int)KERNEL_COUNT <= BATCH_KERNELS, "batch.h has room for every kernel");
 
 static inline real3 gather(facet_dirs d, size_t i)
 {
     return make3(d.x[i], d.y[i], d.z[i]);
 }
 
-#define LOOP_ROWS(name, summary, source)                                                                               \
-    static void name##_eval_loop(const void *params, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f)              \
+/* One loop per variant; a variant's constants are known where the loop is compiled. */
+#define LOOP_ROWS(name, variants)                                                                                      \
+    KERNEL void name##_eval_each(name##_params p, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f)                 \
     {                                                                                                                  \
-        const name##_params p = *(const name##_params *)params;                                                        \
         float *restrict const r = f.r, *restrict const g = f.g, *restrict const b = f.b;                               \
         _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                             \
         {                                                                                                              \
@@ -29,15 +29,27 @@ static inline real3 gather(facet_dirs d, size_t i)
             b[i] = value.z;                                                                                            \
         }                                                                                                              \
     }                                                                                                                  \
-    static void name##_pdf_loop(const void *params, size_t n, facet_dirs wi, facet_dirs wo, float *pdf)                \
+    KERNEL void name##_pdf_each(name##_params p, size_t n, facet_dirs wi, facet_dirs wo, float *pdf)                   \
     {                                                                                                                  \
-        const name##_params p = *(const name##_params *)params;                                                        \
         float *restrict const out = pdf;                                                                               \
         _Pragma("omp simd") for (size_t i = 0; i < n; i++) out[i] = name##_pdf(p, gather(wi, i), gather(wo, i));       \
     }                                                                                                                  \
-    static void name##_sample_loop(const void *params, size_t n, facet_dirs wo, facet_dirs u, facet_samples s)         \
+    KERNEL void name##_eval_pdf_each(name##_params p, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f, float *pdf) \
     {                                                                                                                  \
-        const name##_params p = *(const name##_params *)params;                                                        \
+        float *restrict const r = f.r, *restrict const g = f.g, *restrict const b = f.b, *restrict const out = pdf;    \
+        _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                             \
+        {                                                                                                              \
+            const real3 to_light = gather(wi, i), to_viewer = gather(wo, i);                                           \
+            const real3 value = name##_eval(p, to_light, to_viewer);                                                   \
+            const real density = name##_pdf(p, to_light, to_viewer);                                                   \
+            r[i] = value.x;                                                                                            \
+            g[i] = value.y;                                                                                            \
+            b[i] = value.z;                                                                                            \
+            out[i] = density;                                                                                          \
+        }                                                                                                              \
+    }                                                                                                                  \
+    KERNEL void name##_sample_each(name##_params p, size_t n, facet_dirs wo, facet_dirs u, facet_samples s)            \
+    {                                                                                                                  \
         const facet_samples to = s;                                                                                    \
         _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                             \
         {                                                                                                              \
@@ -50,15 +62,56 @@ static inline real3 gather(facet_dirs d, size_t i)
             to.weight_g[i] = drawn.weight.y;                                                                           \
             to.weight_b[i] = drawn.weight.z;                                                                           \
         }                                                                                                              \
+    }                                                                                                                  \
+    static void name##_eval_loop(const prepared *p, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f)               \
+    {                                                                                                                  \
+        switch (p->variant) {                                                                                          \
+            EACH_VARIANT(variants, EVAL_CASE, name)                                                                    \
+        }                                                                                                              \
+    }                                                                                                                  \
+    static void name##_pdf_loop(const prepared *p, size_t n, facet_dirs wi, facet_dirs wo, float *pdf)                 \
+    {                                                                                                                  \
+        switch (p->variant) {                                                                                          \
+            EACH_VARIANT(variants, PDF_CASE, name)                                                                     \
+        }                                                                                                              \
+    }                                                                                                                  \
+    static void name##_eval_pdf_loop(const prepared *p, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f,           \
+                                     float *pdf)                                                                       \
+    {                                                                                                                  \
+        switch (p->variant) {                                                                                          \
+            EACH_VARIANT(variants, EVAL_PDF_CASE, name)                                                                \
+        }                                                                                                              \
+    }                                                                                                                  \
+    static void name##_sample_loop(const prepared *p, size_t n, facet_dirs wo, facet_dirs u, facet_samples s)          \
+    {                                                                                                                  \
+        switch (p->variant) {                                                                                          \
+            EACH_VARIANT(variants, SAMPLE_CASE, name)                                                                  \
+        }                                                                                                              \
     }
-FACET_MODELS(LOOP_ROWS)
+#define EVAL_CASE(name, v)                                                                                             \
+    case v:                                                                                                            \
+        name##_eval_each(name##_fix(p->of.name, v), n, wi, wo, f);                                                     \
+        break;
+#define PDF_CASE(name, v)                                                                                              \
+    case v:                                                                                                            \
+        name##_pdf_each(name##_fix(p->of.name, v), n, wi, wo, pdf);                                                    \
+        break;
+#define EVAL_PDF_CASE(name, v)                                                                                         \
+    case v:                                                                                                            \
+        name##_eval_pdf_each(name##_fix(p->of.name, v), n, wi, wo, f, pdf);                                            \
+        break;
+#define SAMPLE_CASE(name, v)                                                                                           \
+    case v: name##_sample_each(name##_fix(p->of.name, v), n, wo, u, s); break;
+FACET_KERNELS(LOOP_ROWS)
 
-#define EVAL_ENTRY(name, summary, source) name##_eval_loop,
-#define PDF_ENTRY(name, summary, source) name##_pdf_loop,
-#define SAMPLE_ENTRY(name, summary, source) name##_sample_loop,
+#define EVAL_ENTRY(name, variants) name##_eval_loop,
+#define PDF_ENTRY(name, variants) name##_pdf_loop,
+#define EVAL_PDF_ENTRY(name, variants) name##_eval_pdf_loop,
+#define SAMPLE_ENTRY(name, variants) name##_sample_loop,
 const batch_loops BATCH_LOOPS = {
     .name = BATCH_NAME,
-    .eval = {FACET_MODELS(EVAL_ENTRY)},
-    .pdf = {FACET_MODELS(PDF_ENTRY)},
-    .sample = {FACET_MODELS(SAMPLE_ENTRY)},
+    .eval = {FACET_KERNELS(EVAL_ENTRY)},
+    .pdf = {FACET_KERNELS(PDF_ENTRY)},
+    .eval_pdf = {FACET_KERNELS(EVAL_PDF_ENTRY)},
+    .sample = {FACET_KERNELS(SAMPLE_ENTRY)},
 };

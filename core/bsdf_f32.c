@@ -10,19 +10,19 @@
 facet_bsdf facet_bsdf_metallic_roughness(const float base_color[3], float metallic, float roughness,
                                          float dielectric_F0, float specular, const float specular_color[3])
 {
-    prepared p = {.model = MODEL_metallic_roughness};
+    prepared p = {.kernel = KERNEL_metallic_roughness};
     p.of.metallic_roughness = metallic_roughness_of(load3(base_color), metallic, roughness, dielectric_F0, specular,
                                                     load3(specular_color));
     facet_bsdf bsdf;
-    memcpy(&bsdf, &p, sizeof p);
+    memcpy(&bsdf, &p, offsetof(prepared, of) + sizeof p.of.metallic_roughness);
     return bsdf;
 }
 
 facet_bsdf facet_bsdf_glass(float ior, const float tint[3], int is_thin)
 {
-    prepared p = {.model = MODEL_glass};
+    prepared p = {.kernel = KERNEL_glass};
     p.of.glass = (glass_params){.eta = ior, .tint = load3(tint), .wall = is_thin ? WALL_THIN : WALL_SOLID};
     facet_bsdf bsdf;
-    memcpy(&bsdf, &p, sizeof p);
+    memcpy(&bsdf, &p, offsetof(prepared, of) + sizeof p.of.glass);
     return bsdf;
 }

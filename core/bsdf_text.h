@@ -43,10 +43,13 @@ facet_status NAME(prepare)(const facet_material *material, STORAGE *bsdf, facet_
     if (status) return status;
     prepared p;
     memset(&p, 0, sizeof p); /* padding included: equal materials give equal bytes */
-    p.model = (int)material->model;
-    switch (p.model) {
-#define PREPARE_ROW(name, summary, source)                                                                             \
-    case MODEL_##name: p.of.name = name##_prepare(material); break;
+    switch (material->model) {
+#define PREPARE_ROW(name, kernel_name, summary, source)                                                                \
+    case MODEL_##name:                                                                                                 \
+        p.kernel = KERNEL_##kernel_name;                                                                               \
+        p.of.kernel_name = name##_prepare(material);                                                                   \
+        p.variant = kernel_name##_variant(p.of.kernel_name);                                                           \
+        break;
         FACET_MODELS(PREPARE_ROW)
     }
     memset(bsdf, 0, sizeof *bsdf);
@@ -54,35 +57,98 @@ facet_status NAME(prepare)(const facet_material *material, STORAGE *bsdf, facet_
     return FACET_OK;
 }
 
+/* One function per kernel and verb, which runs the code of the material's variant. */
+#define VERB_ROWS(name, variants)                                                                                      \
+    static real3 name##_eval_any(const prepared *p, real3 wi, real3 wo)                                                \
+    {                                                                                                                  \
+        switch (p->variant) {                                                                                          \
+            EACH_VARIANT(variants, EVAL_CASE, name)                                                                    \
+        }                                                                                                              \
+        return splat3(0);                                                                                              \
+    }                                                                                                                  \
+    static real name##_pdf_any(const prepared *p, real3 wi, real3 wo)                                                  \
+    {                                                                                                                  \
+        switch (p->variant) {                                                                                          \
+            EACH_VARIANT(variants, PDF_CASE, name)                                                                     \
+        }                                                                                                              \
+        return 0;                                                                                                      \
+    }                                                                                                                  \
+    static real3 name##_eval_pdf_any(const prepared *p, real3 wi, real3 wo, real *pdf)                                 \
+    {                                                                                                                  \
+        switch (p->variant) {                                                                                          \
+            EACH_VARIANT(variants, EVAL_PDF_CASE, name)                                                                \
+        }                                                                                                              \
+        return splat3(0);                                                                                              \
+    }                                                                                                                  \
+    static bsdf_sample name##_sample_any(const prepared *p, real3 wo, real3 u)                                         \
+    {                                                                                                                  \
+        switch (p->variant) {                                                                                          \
+            EACH_VARIANT(variants, SAMPLE_CASE, name)                                                                  \
+        }                                                                                                              \
+        return (bsdf_sample){.pdf = 0};                                                                                \
+    }
+
+#define EVAL_CASE(name, v)                                                                                             \
+    case v: {                                                                                                          \
+        return name##_eval(name##_fix(p->of.name, v), wi, wo);                                                         \
+    }
+#define PDF_CASE(name, v)                                                                                              \
+    case v: {                                                                                                          \
+        return name##_pdf(name##_fix(p->of.name, v), wi, wo);                                                          \
+    }
+#define EVAL_PDF_CASE(name, v)                                                                                         \
+    case v: {                                                                                                          \
+        const real3 f = name##_eval(name##_fix(p->of.name, v), wi, wo);                                                \
+        *pdf = name##_pdf(name##_fix(p->of.name, v), wi, wo);                                                          \
+        return f;                                                                                                      \
+    }
+#define SAMPLE_CASE(name, v)                                                                                           \
+    case v: {                                                                                                          \
+        return name##_sample(name##_fix(p->of.name, v), wo, u);                                                        \
+    }
+FACET_KERNELS(VERB_ROWS)
+
 void NAME(eval)(const STORAGE *bsdf, const real wi[3], const real wo[3], real f[3])
 {
     const prepared *p = content(bsdf);
-    switch (p->model) {
-#define EVAL_ROW(name, summary, source)                                                                                \
-    case MODEL_##name: store3(f, name##_eval(p->of.name, load3(wi), load3(wo))); break;
-        FACET_MODELS(EVAL_ROW)
+    switch (p->kernel) {
+#define EVAL_ROW(name, variants)                                                                                       \
+    case KERNEL_##name: store3(f, name##_eval_any(p, load3(wi), load3(wo))); break;
+        FACET_KERNELS(EVAL_ROW)
     }
 }
 
 real NAME(pdf)(const STORAGE *bsdf, const real wi[3], const real wo[3])
 {
     const prepared *p = content(bsdf);
-    switch (p->model) {
-#define PDF_ROW(name, summary, source)                                                                                 \
-    case MODEL_##name: return name##_pdf(p->of.name, load3(wi), load3(wo));
-        FACET_MODELS(PDF_ROW)
+    switch (p->kernel) {
+#define PDF_ROW(name, variants)                                                                                        \
+    case KERNEL_##name: return name##_pdf_any(p, load3(wi), load3(wo));
+        FACET_KERNELS(PDF_ROW)
     }
     return 0;
+}
+
+real NAME(eval_pdf)(const STORAGE *bsdf, const real wi[3], const real wo[3], real f[3])
+{
+    const prepared *p = content(bsdf);
+    real pdf = 0;
+    switch (p->kernel) {
+#define EVAL_PDF_ROW(name, variants)                                                                                   \
+    case KERNEL_##name: store3(f, name##_eval_pdf_any(p, load3(wi), load3(wo), &pdf)); break;
+        FACET_KERNELS(EVAL_PDF_ROW)
+    }
+    return pdf;
 }
 
 SAMPLE NAME(sample)(const STORAGE *bsdf, const real wo[3], const real u[3])
 {
     const prepared *p = content(bsdf);
     bsdf_sample s = {.pdf = 0};
-    switch (p->model) {
-#define SAMPLE_ROW(name, summary, source)                                                                              \
-    case MODEL_##name: s = name##_sample(p->of.name, load3(wo), load3(u)); break;
-        FACET_MODELS(SAMPLE_ROW)
+    switch (p->kernel) {
+#define SAMPLE_ROW(name, variants)                                                                                     \
+    case KERNEL_##name: s = name##_sample_any(p, load3(wo), load3(u)); break;
+        FACET_KERNELS(SAMPLE_ROW)
     }
     return (SAMPLE){.wi = {s.wi.x, s.wi.y, s.wi.z},
                     .pdf = s.pdf,
@@ -95,10 +161,10 @@ TERMS NAME(terms)(const STORAGE *bsdf, const real m[3])
 {
     const prepared *p = content(bsdf);
     real3 t = splat3(0);
-    switch (p->model) {
-#define TERMS_ROW(name, summary, source)                                                                               \
-    case MODEL_##name: t = name##_terms(p->of.name, load3(m)); break;
-        FACET_MODELS(TERMS_ROW)
+    switch (p->kernel) {
+#define TERMS_ROW(name, variants)                                                                                      \
+    case KERNEL_##name: t = name##_terms(p->of.name, load3(m)); break;
+        FACET_KERNELS(TERMS_ROW)
     }
     return (TERMS){.D = t.x, .Lambda = t.y, .G1 = t.z};
 }
@@ -106,10 +172,10 @@ TERMS NAME(terms)(const STORAGE *bsdf, const real m[3])
 int NAME(lobes)(const STORAGE *bsdf)
 {
     const prepared *p = content(bsdf);
-    switch (p->model) {
-#define LOBES_ROW(name, summary, source)                                                                               \
-    case MODEL_##name: return name##_lobes(p->of.name);
-        FACET_MODELS(LOBES_ROW)
+    switch (p->kernel) {
+#define LOBES_ROW(name, variants)                                                                                      \
+    case KERNEL_##name: return name##_lobes(p->of.name);
+        FACET_KERNELS(LOBES_ROW)
     }
     return 0;
 }

@@ -1,8 +1,12 @@
-/* model_table.h: the models, one row each.  A new model is a file in core/kernel/ and a row here.
+/* model_table.h: the kernels and the models, one row each.
  *
- * A kernel file NAME.h defines, beside its formulas, NAME_params, NAME_eval, NAME_pdf, NAME_sample,
- * NAME_lobes and NAME_terms; under FACET_PARAMETERS the array NAME_parameters, and under FACET_PREPARE NAME_prepare,
- * which turns a checked facet_material into NAME_params.
+ * A kernel file core/kernel/NAME.h defines, beside its formulas, NAME_params, NAME_eval, NAME_pdf, NAME_sample,
+ * NAME_lobes and NAME_terms.  Where settings that are the same for a whole material choose between formulas, the code
+ * is compiled once for each VARIANT of the settings, so that a batch never chooses per element: NAME_variant gives the
+ * variant of prepared parameters, and NAME_fix sets the fields that are constant in a variant to those constants.
+ *
+ * A model file core/model/model_NAME.h defines, under FACET_PARAMETERS, the array NAME_parameters, and under
+ * FACET_PREPARE NAME_prepare, which turns a checked facet_material into the parameters of its kernel.
  * SPDX-License-Identifier: MIT */
 #pragma once
 
@@ -10,20 +14,36 @@
 
 #include "material.h"
 
-#include "kernel/beckmann.h"
-#include "kernel/ggx.h"
-#include "kernel/glass.h"
-#include "kernel/lambert.h"
-#include "kernel/metallic_roughness.h"
-#include "kernel/phong.h"
+#include "model/model_beckmann.h"
+#include "model/model_ggx.h"
+#include "model/model_glass.h"
+#include "model/model_lambert.h"
+#include "model/model_metallic_roughness.h"
+#include "model/model_phong.h"
 
-/* X(name, summary, source) */
+/* X(name, number of variants) */
+#define FACET_KERNELS(X)                                                                                               \
+    X(lambert, 1)                                                                                                      \
+    X(microfacet, 12)                                                                                                  \
+    X(glass, 1)                                                                                                        \
+    X(metallic_roughness, 1)
+
+/* X(name, kernel, summary, source) */
 #define FACET_MODELS(X)                                                                                                \
-    X(lambert, "ideal diffuse reflector", "CS500 Project 3, diffuse term")                                             \
-    X(phong, "Phong distribution of normals, with its own exact Smith masking",                                        \
+    X(lambert, lambert, "ideal diffuse reflector", "CS500 Project 3, diffuse term")                                    \
+    X(phong, microfacet, "Phong distribution of normals, with its own exact Smith masking",                            \
       "CS500 Project 3, D_p, exponent of the sampler corrected")                                                       \
-    X(beckmann, "Beckmann (Gaussian) distribution of normals", "CS500 Project 3, D_b; Heitz 2014")                     \
-    X(ggx, "GGX (Trowbridge-Reitz) distribution of normals", "CS500 Project 3, D_g; Dupuy and Benyoub 2023")           \
-    X(glass, "smooth dielectric: mirror reflection and refraction", "CS500 Project 3, exact F; Walter 2007, s. 4")     \
-    X(metallic_roughness, "glTF's material: dielectric over diffuse, blended towards a metal",                         \
+    X(beckmann, microfacet, "Beckmann (Gaussian) distribution of normals", "CS500 Project 3, D_b; Heitz 2014")         \
+    X(ggx, microfacet, "GGX (Trowbridge-Reitz) distribution of normals",                                               \
+      "CS500 Project 3, D_g; Dupuy and Benyoub 2023")                                                                  \
+    X(glass, glass, "smooth dielectric: mirror reflection and refraction",                                             \
+      "CS500 Project 3, exact F; Walter 2007, s. 4")                                                                   \
+    X(metallic_roughness, metallic_roughness, "glTF's material: dielectric over diffuse, blended towards a metal",     \
       "glTF 2.0 Specification, appendix B")
+
+/* EACH_VARIANT(n, CASE, name) is CASE(name, 0) ... CASE(name, n - 1), n one of the numbers above. */
+#define EACH_VARIANT(n, CASE, name) EACH_VARIANT_##n(CASE, name)
+#define EACH_VARIANT_1(CASE, name) CASE(name, 0)
+#define EACH_VARIANT_4(CASE, name) EACH_VARIANT_1(CASE, name) CASE(name, 1) CASE(name, 2) CASE(name, 3)
+#define EACH_VARIANT_8(CASE, name) EACH_VARIANT_4(CASE, name) CASE(name, 4) CASE(name, 5) CASE(name, 6) CASE(name, 7)
+#define EACH_VARIANT_12(CASE, name) EACH_VARIANT_8(CASE, name) CASE(name, 8) CASE(name, 9) CASE(name, 10) CASE(name, 11)

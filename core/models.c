@@ -12,11 +12,11 @@
 #define FACET_PARAMETERS
 #include "model_table.h"
 
-#define INFO_ROW(name, summary, source)                                                                                \
+#define INFO_ROW(name, kernel, summary, source)                                                                        \
     {#name, summary, source, sizeof name##_parameters/sizeof name##_parameters[0], name##_parameters},
 static const facet_model_info models[] = {FACET_MODELS(INFO_ROW)};
 
-#define FITS_ROW(name, summary, source)                                                                                \
+#define FITS_ROW(name, kernel, summary, source)                                                                        \
     _Static_assert(sizeof name##_parameters/sizeof name##_parameters[0] <= FACET_MAX_PARAMETERS, #name);
 FACET_MODELS(FITS_ROW)
 

@@ -3,10 +3,9 @@
  * SPDX-License-Identifier: MIT */
 #include "tests/kernel_access.h"
 
-#include "core/kernel/beckmann.h"
-#include "core/kernel/ggx.h"
-#include "core/kernel/lambert.h"
-#include "core/kernel/phong.h"
+#include "core/kernel/bsdf.h"
+#include "core/kernel/distribution.h"
+#include "core/kernel/fresnel.h"
 
 static double density(kernel_distribution which, double shape_x, double shape_y, const double m[3])
 {
@@ -14,7 +13,7 @@ static double density(kernel_distribution which, double shape_x, double shape_y,
     const real3 n = make3((real)m[0], (real)m[1], (real)m[2]);
     switch (which) {
     case KERNEL_COSINE: return (double)(n.z > 0 ? INV_PI : 0);
-    case KERNEL_PHONG: return (double)phong_D(n, x, 1, 1);
+    case KERNEL_PHONG: return (double)phong_D(n, (phong_shape){.exponent = x}, 1, 1);
     case KERNEL_BECKMANN: return (double)beckmann_D(n, x, y);
     case KERNEL_GGX: return (double)ggx_D(n, x, y);
     }
@@ -27,10 +26,11 @@ static void sample_ndf(kernel_distribution which, double shape_x, double shape_y
     real3 n = make3(0, 0, 0);
     switch (which) {
     case KERNEL_COSINE: n = sample_cosine(u, v); break;
-    case KERNEL_PHONG: n = phong_sample_ndf(u, v, x, 1, 1); break;
+    case KERNEL_PHONG: n = phong_sample_ndf(u, v, (phong_shape){.exponent = x}, 1, 1); break;
     case KERNEL_BECKMANN: n = beckmann_sample_ndf(u, v, x, y); break;
     case KERNEL_GGX: n = ggx_sample_ndf(u, v, x, y); break;
     }
+    n = normalize3(n);
     m[0] = (double)n.x;
     m[1] = (double)n.y;
     m[2] = (double)n.z;

@@ -9,9 +9,8 @@
  * SPDX-License-Identifier: MIT */
 #pragma once
 
-#include "microfacet.h"
-
-typedef microfacet_params beckmann_params;
+#include "kmath.h"
+#include "slopes.h"
 
 #define LARGEST_EXPONENT 1000.0f /* exp(-1000) is 0 in double as well */
 #define SLOPE_LIMIT      7.0f    /* P(|slope| > 7) = 4e-23 */
@@ -24,15 +23,13 @@ typedef microfacet_params beckmann_params;
 #define FIT_2_577 ((real)2.577)
 #define FIT_1_6   ((real)1.6)
 
-/* D(wm), 1/sr.  [cs500, D_b], tan^2/alpha^2 written with the stretched slopes. */
-KERNEL real beckmann_D(real3 wm, real alpha_x, real alpha_y)
+/* D at the direction of m, 1/sr; m need not be a unit vector.  [cs500, D_b], tan^2/alpha^2 written with the stretched
+ * slopes. */
+KERNEL real beckmann_D(real3 m, real alpha_x, real alpha_y)
 {
-    real z  = kmax(wm.z, COS_SMALLEST);
-    real sx = wm.x/(alpha_x*z);
-    real sy = wm.y/(alpha_y*z);
-    real z2 = z*z;
-    real e  = kexp(-kmin(sx*sx + sy*sy, LARGEST_EXPONENT));
-    return wm.z > 0 ? e*INV_PI/(alpha_x*alpha_y)/z2/z2 : (real)0;
+    real cos2 = cos2_of(m);
+    real e    = kexp(-kmin(stretched_tan2(m, alpha_x, alpha_y), LARGEST_EXPONENT));
+    return m.z > 0 ? e*INV_PI/(alpha_x*alpha_y)/cos2/cos2 : (real)0;
 }
 
 /* Lambda(v) = exp(-a^2) (1/(a sqrt(pi)) - erfcx(a))/2, a the stretched cotangent.  [heitz14].
@@ -57,7 +54,7 @@ KERNEL real3 beckmann_sample_ndf(real ux, real uy, real alpha_x, real alpha_y)
 {
     real2 azimuth = kcossin_turn(uy);
     real r        = ksqrt(-klog1p(-kmin(ux, 1 - REAL_EPSILON)));
-    return normal_of_slopes(alpha_x*r*azimuth.x, alpha_y*r*azimuth.y);
+    return make3(alpha_x*r*azimuth.x, alpha_y*r*azimuth.y, 1);
 }
 
 /* The slope t towards the viewer of a visible normal, alpha = 1, for a viewer of cotangent a: its density is
@@ -102,59 +99,5 @@ KERNEL real3 beckmann_sample_vndf(real3 wo, real ux, real uy, real alpha_x, real
     /* Slopes are -m.x/m.z: a normal that leans towards the viewer has t > 0 with m.x along wo. */
     real mx = cos_phi*towards - sin_phi*across;
     real my = sin_phi*towards + cos_phi*across;
-    return normal_of_slopes(alpha_x*mx, alpha_y*my);
+    return make3(alpha_x*mx, alpha_y*my, 1);
 }
-
-KERNEL real beckmann_masking(beckmann_params p, real3 v)
-{
-    real exact = beckmann_Lambda(v, p.alpha_x, p.alpha_y);
-    real fit   = rational_fit_Lambda(stretched_cot(v, p.alpha_x, p.alpha_y));
-    return p.masking == MASKING_PUBLISHED ? fit : exact;
-}
-
-KERNEL real3 beckmann_eval(beckmann_params p, real3 wi, real3 wo)
-{
-    real3 wm = half_vector(wi, wo);
-    return microfacet_eval(p, wi, wo, wm, beckmann_D(wm, p.alpha_x, p.alpha_y), beckmann_masking(p, wi),
-                           beckmann_masking(p, wo));
-}
-
-KERNEL real beckmann_pdf(beckmann_params p, real3 wi, real3 wo)
-{
-    real3 wm = half_vector(wi, wo);
-    return microfacet_pdf(p, wi, wo, wm, beckmann_D(wm, p.alpha_x, p.alpha_y),
-                          beckmann_Lambda(wo, p.alpha_x, p.alpha_y));
-}
-
-KERNEL bsdf_sample beckmann_sample(beckmann_params p, real3 wo, real3 u)
-{
-    real3 wm = select3(p.sampling == SAMPLING_NDF, beckmann_sample_ndf(u.x, u.y, p.alpha_x, p.alpha_y),
-                       beckmann_sample_vndf(wo, u.x, u.y, p.alpha_x, p.alpha_y));
-    real3 wi = microfacet_choose(p, wo, wm, u);
-    return microfacet_complete(p, wi, wo, wm, u, beckmann_eval(p, wi, wo), beckmann_pdf(p, wi, wo));
-}
-
-KERNEL int beckmann_lobes(beckmann_params p) { return microfacet_lobes(p); }
-
-/* D, Lambda, G1 at m. */
-KERNEL real3 beckmann_terms(beckmann_params p, real3 m)
-{
-    real Lambda = beckmann_masking(p, m);
-    return make3(beckmann_D(m, p.alpha_x, p.alpha_y), Lambda, m.z > 0 ? 1/(1 + Lambda) : (real)0);
-}
-
-#ifdef FACET_PARAMETERS
-static const facet_parameter beckmann_parameters[] = {
-    ALPHA_PARAMETERS,
-    MICROFACET_PARAMETERS("vndf|ndf", 1),
-};
-#endif
-
-#ifdef FACET_PREPARE
-static beckmann_params beckmann_prepare(const facet_material *m)
-{
-    beckmann_params p = microfacet_prepare(m);
-    alpha_prepare(m, &p);
-    return p;
-}
-#endif

@@ -36,3 +36,20 @@ KERNEL real fresnel_normal_incidence(real eta)
     real r = (eta - 1)/(eta + 1);
     return r*r;
 }
+
+/* Which interface, and its numbers. */
+#define FRESNEL_SCHLICK    0
+#define FRESNEL_DIELECTRIC 1
+
+typedef struct fresnel {
+    int kind;
+    real3 F0; /* Schlick: reflectance at normal incidence */
+    real eta; /* dielectric: n_t/n_i */
+} fresnel;
+
+/* Reflectance at c = |w.wm| in [0,1]. */
+KERNEL real3 fresnel_reflectance(fresnel f, real c)
+{
+    return select3(f.kind == FRESNEL_DIELECTRIC, splat3(fresnel_dielectric(c, f.eta)),
+                   fresnel_schlick(f.F0, splat3(1), c));
+}

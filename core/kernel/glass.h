@@ -9,7 +9,8 @@
  * SPDX-License-Identifier: MIT */
 #pragma once
 
-#include "microfacet.h"
+#include "bsdf.h"
+#include "fresnel.h"
 
 #define WALL_SOLID 0
 #define WALL_THIN  1
@@ -79,25 +80,15 @@ KERNEL real3 glass_terms(glass_params p, real3 m)
     return splat3(0);
 }
 
-#ifdef FACET_PARAMETERS
-static const facet_parameter glass_parameters[] = {
-    {"ior", FACET_NUMBER, 0.1, 10, {1.5, 0, 0}, "1", "", "index of refraction of the inside to the outside"},
-    {"tint", FACET_COLOUR, 0, 1, {1, 1, 1}, "1", "", "multiplies what is transmitted, at each crossing"},
-    {"wall",
-     FACET_CHOICE,
-     0,
-     1,
-     {0, 0, 0},
-     "1",
-     "solid|thin",
-     "a body that refracts, or a thin sheet that does not bend light"},
-};
-#endif
-
-#ifdef FACET_PREPARE
-static glass_params glass_prepare(const facet_material *m)
+/* One variant. */
+KERNEL int glass_variant(glass_params p)
 {
-    return (glass_params){
-        .eta = prepare_number(m, "ior"), .tint = prepare_colour(m, "tint"), .wall = prepare_choice(m, "wall")};
+    (void)p;
+    return 0;
 }
-#endif
+
+KERNEL glass_params glass_fix(glass_params p, int variant)
+{
+    (void)variant;
+    return p;
+}

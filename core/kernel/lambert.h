@@ -4,7 +4,7 @@
  * SPDX-License-Identifier: MIT */
 #pragma once
 
-#include "microfacet.h"
+#include "bsdf.h"
 
 typedef struct lambert_params {
     real3 kd; /* reflectance, [0,1] */
@@ -50,15 +50,15 @@ KERNEL real3 lambert_terms(lambert_params p, real3 m)
     return splat3(0);
 }
 
-#ifdef FACET_PARAMETERS
-static const facet_parameter lambert_parameters[] = {
-    {"kd", FACET_COLOUR, 0, 1, {0.8, 0.8, 0.8}, "1", "", "reflectance"},
-};
-#endif
-
-#ifdef FACET_PREPARE
-static lambert_params lambert_prepare(const facet_material *m)
+/* One variant. */
+KERNEL int lambert_variant(lambert_params p)
 {
-    return (lambert_params){.kd = prepare_colour(m, "kd")};
+    (void)p;
+    return 0;
 }
-#endif
+
+KERNEL lambert_params lambert_fix(lambert_params p, int variant)
+{
+    (void)variant;
+    return p;
+}

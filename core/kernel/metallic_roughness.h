@@ -13,7 +13,7 @@
  * SPDX-License-Identifier: MIT */
 #pragma once
 
-#include "ggx.h"
+#include "microfacet.h"
 
 #define DIFFUSE_LAMBERT 0
 #define DIFFUSE_BURLEY  1
@@ -53,25 +53,6 @@ KERNEL real metallic_roughness_p_diffuse(metallic_roughness_params p, real3 wo)
     return diffuse > 0 ? (F > 0 ? kept : (real)1) : (real)0;
 }
 
-/* The same as shared microfacet parameters, for sampling and density. */
-KERNEL microfacet_params metallic_roughness_mixture(metallic_roughness_params p, real3 wo)
-{
-    microfacet_params m;
-    m.kd           = p.kd;
-    m.F0           = p.F0;
-    m.eta          = 1;
-    m.alpha_x      = p.alpha;
-    m.alpha_y      = p.alpha;
-    m.exponent     = 0;
-    m.beta_inverse = 0;
-    m.p_diffuse    = metallic_roughness_p_diffuse(p, wo);
-    m.fresnel      = FRESNEL_SCHLICK;
-    m.g2           = G2_CORRELATED;
-    m.masking      = MASKING_EXACT;
-    m.sampling     = SAMPLING_VNDF;
-    return m;
-}
-
 /* The diffuse base over kd/pi: what the interface above lets through, or [burley12, section 5.3], where
  * FD90 = 1/2 + 2 roughness cos_d^2 and cos_d = wi.wm. */
 KERNEL real metallic_roughness_base(metallic_roughness_params p, real cos_i, real cos_o, real cos_d, real3 F)
@@ -81,32 +62,45 @@ KERNEL real metallic_roughness_base(metallic_roughness_params p, real cos_i, rea
     return p.diffuse == DIFFUSE_BURLEY ? burley : 1 - max_of3(F);
 }
 
+/* The distribution of normals: GGX, isotropic. */
+KERNEL distribution metallic_roughness_distribution(metallic_roughness_params p)
+{
+    distribution d;
+    d.kind               = NDF_GGX;
+    d.masking            = MASKING_EXACT;
+    d.alpha_x            = p.alpha;
+    d.alpha_y            = p.alpha;
+    d.phong.exponent     = 0;
+    d.phong.beta_inverse = 0;
+    return d;
+}
+
 KERNEL real3 metallic_roughness_eval(metallic_roughness_params p, real3 wi, real3 wo)
 {
-    real3 wm      = half_vector(wi, wo);
-    real D        = ggx_D(wm, p.alpha, p.alpha);
-    real G2       = smith_G2(ggx_Lambda(wi, p.alpha, p.alpha), ggx_Lambda(wo, p.alpha, p.alpha), G2_CORRELATED);
-    real cos_d    = kmin(kabs(dot3(wi, wm)), 1);
-    real3 F       = fresnel_schlick(p.F0, p.F90, cos_d);
-    real specular = D*G2/(4*kmax(wo.z, COS_SMALLEST));
-    real diffuse  = INV_PI*wi.z*metallic_roughness_base(p, wi.z, wo.z, cos_d, F);
-    return select3(is_above(wi, wo), add3(scale3(diffuse, p.kd), scale3(specular, F)), splat3(0));
+    specular_term s = specular_at(metallic_roughness_distribution(p), G2_CORRELATED, wi, wo);
+    real3 F         = fresnel_schlick(p.F0, p.F90, s.cos_d);
+    real diffuse    = INV_PI*wi.z*metallic_roughness_base(p, wi.z, wo.z, s.cos_d, F);
+    return select3(is_above(wi, wo), add3(scale3(diffuse, p.kd), scale3(specular_f(s, wi), F)), splat3(0));
 }
 
 KERNEL real metallic_roughness_pdf(metallic_roughness_params p, real3 wi, real3 wo)
 {
-    real3 wm = half_vector(wi, wo);
-    return microfacet_pdf(metallic_roughness_mixture(p, wo), wi, wo, wm, ggx_D(wm, p.alpha, p.alpha),
-                          ggx_Lambda(wo, p.alpha, p.alpha));
+    distribution d  = metallic_roughness_distribution(p);
+    specular_term s = specular_at(d, G2_CORRELATED, wi, wo);
+    real p_diffuse  = metallic_roughness_p_diffuse(p, wo);
+    real pdf        = p_diffuse*(INV_PI*wi.z) + (1 - p_diffuse)*specular_visible_pdf(d, s, wo);
+    return is_above(wi, wo) ? pdf : (real)0;
 }
 
 KERNEL bsdf_sample metallic_roughness_sample(metallic_roughness_params p, real3 wo, real3 u)
 {
-    microfacet_params lobes = metallic_roughness_mixture(p, wo);
-    real3 wm                = ggx_sample_vndf(wo, u.x, u.y, p.alpha, p.alpha);
-    real3 wi                = microfacet_choose(lobes, wo, wm, u);
-    return microfacet_complete(lobes, wi, wo, wm, u, metallic_roughness_eval(p, wi, wo),
-                               metallic_roughness_pdf(p, wi, wo));
+    int is_diffuse = u.z < metallic_roughness_p_diffuse(p, wo);
+    real3 m        = ggx_sample_vndf(wo, u.x, u.y, p.alpha, p.alpha);
+    real3 wi       = select3(is_diffuse, sample_cosine(u.x, u.y), reflect(wo, m));
+    real pdf       = metallic_roughness_pdf(p, wi, wo);
+    int is_valid   = (pdf > REAL_MIN) & (is_diffuse | (dot3(wo, m) > 0));
+    return complete_sample(wi, metallic_roughness_eval(p, wi, wo), pdf, is_valid,
+                           LOBE_REFLECTION | (is_diffuse ? LOBE_DIFFUSE : LOBE_GLOSSY));
 }
 
 KERNEL int metallic_roughness_lobes(metallic_roughness_params p)
@@ -121,40 +115,15 @@ KERNEL real3 metallic_roughness_terms(metallic_roughness_params p, real3 m)
     return make3(ggx_D(m, p.alpha, p.alpha), Lambda, m.z > 0 ? 1/(1 + Lambda) : (real)0);
 }
 
-#ifdef FACET_PARAMETERS
-static const facet_parameter metallic_roughness_parameters[] = {
-    {"base_color", FACET_COLOUR, 0, 1, {0.8, 0.8, 0.8}, "1", "", "diffuse colour, or reflectance of the metal"},
-    {"metallic", FACET_NUMBER, 0, 1, {0, 0, 0}, "1", "", "0: dielectric, 1: metal"},
-    {"roughness", FACET_NUMBER, 0, 1, {0.5, 0, 0}, "1", "", "perceptual roughness, alpha = roughness^2"},
-    {"ior", FACET_NUMBER, 1, 10, {1.5, 0, 0}, "1", "", "index of refraction of the dielectric"},
-    {"specular", FACET_NUMBER, 0, 1, {1, 0, 0}, "1", "", "strength of the dielectric's reflection"},
-    {"specular_color",
-     FACET_COLOUR,
-     0,
-     1,
-     {1, 1, 1},
-     "1",
-     "",
-     "tint of the dielectric's reflection at normal incidence"},
-    {"diffuse",
-     FACET_CHOICE,
-     0,
-     1,
-     {0, 0, 0},
-     "1",
-     "lambert|burley",
-     "base under the interface, or Disney's added to it"},
-};
-#endif
-
-#ifdef FACET_PREPARE
-static metallic_roughness_params metallic_roughness_prepare(const facet_material *m)
+/* One variant. */
+KERNEL int metallic_roughness_variant(metallic_roughness_params p)
 {
-    metallic_roughness_params p = metallic_roughness_of(
-        prepare_colour(m, "base_color"), prepare_number(m, "metallic"), prepare_number(m, "roughness"),
-        fresnel_normal_incidence(prepare_number(m, "ior")), prepare_number(m, "specular"),
-        prepare_colour(m, "specular_color"));
-    p.diffuse = prepare_choice(m, "diffuse");
+    (void)p;
+    return 0;
+}
+
+KERNEL metallic_roughness_params metallic_roughness_fix(metallic_roughness_params p, int variant)
+{
+    (void)variant;
     return p;
 }
-#endif

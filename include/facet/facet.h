@@ -173,6 +173,10 @@ FACET_API void facet_bsdf64_eval(const facet_bsdf64 *bsdf, const double wi[3], c
 FACET_API float facet_bsdf_pdf(const facet_bsdf *bsdf, const float wi[3], const float wo[3]);
 FACET_API double facet_bsdf64_pdf(const facet_bsdf64 *bsdf, const double wi[3], const double wo[3]);
 
+/* Both at once, for less than the two calls: fills f and returns the pdf, the same bits. */
+FACET_API float facet_bsdf_eval_pdf(const facet_bsdf *bsdf, const float wi[3], const float wo[3], float f[3]);
+FACET_API double facet_bsdf64_eval_pdf(const facet_bsdf64 *bsdf, const double wi[3], const double wo[3], double f[3]);
+
 /* Draws wi for wo from three numbers u in [0,1): u[0], u[1] place the direction, u[2] picks the lobe. */
 FACET_API facet_sample facet_bsdf_sample(const facet_bsdf *bsdf, const float wo[3], const float u[3]);
 FACET_API facet_sample64 facet_bsdf64_sample(const facet_bsdf64 *bsdf, const double wo[3], const double u[3]);
@@ -201,9 +205,11 @@ typedef struct facet_samples {
     float *wi_x, *wi_y, *wi_z, *pdf, *weight_r, *weight_g, *weight_b;
 } facet_samples;
 
-/* facet_bsdf_eval, _pdf and _sample for n elements: the same bits, whatever the instruction set. */
+/* facet_bsdf_eval, _pdf, _eval_pdf and _sample for n elements: the same bits, whatever the instruction set. */
 FACET_API void facet_bsdf_eval_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f);
 FACET_API void facet_bsdf_pdf_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wi, facet_dirs wo, float *pdf);
+FACET_API void facet_bsdf_eval_pdf_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f,
+                                         float *pdf);
 /* u: three arrays of n numbers in [0,1), named x, y, z for u[0], u[1], u[2]. */
 FACET_API void facet_bsdf_sample_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wo, facet_dirs u,
                                        facet_samples samples);

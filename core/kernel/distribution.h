@@ -1,0 +1,85 @@
+/* distribution.h: one distribution of normals out of the several, by name.
+ *
+ * `kind` is the same for all elements of a batch; the loops are compiled once for each kind, so that the choice
+ * costs nothing (model_table.h).
+ * SPDX-License-Identifier: MIT */
+#pragma once
+
+#include "beckmann.h"
+#include "ggx.h"
+#include "phong.h"
+
+/* In the order of the choices in the parameter tables. */
+#define NDF_GGX           0
+#define NDF_BECKMANN      1
+#define NDF_PHONG         2
+#define NDF_COUNT         3
+#define MASKING_EXACT     0
+#define MASKING_PUBLISHED 1
+
+typedef struct distribution {
+    int kind;
+    int masking;
+    real alpha_x, alpha_y; /* roughness along x and y; for phong the stretch of slopes, 1 when isotropic */
+    phong_shape phong;
+} distribution;
+
+/* D at the direction of m, 1/sr; m need not be a unit vector. */
+KERNEL real distribution_D(distribution d, real3 m)
+{
+    return d.kind == NDF_GGX        ? ggx_D(m, d.alpha_x, d.alpha_y)
+           : d.kind == NDF_BECKMANN ? beckmann_D(m, d.alpha_x, d.alpha_y)
+                                    : phong_D(m, d.phong, d.alpha_x, d.alpha_y);
+}
+
+/* Smith's Lambda of the distribution itself. */
+KERNEL real distribution_exact_Lambda(distribution d, real3 v)
+{
+    return d.kind == NDF_GGX        ? ggx_Lambda(v, d.alpha_x, d.alpha_y)
+           : d.kind == NDF_BECKMANN ? beckmann_Lambda(v, d.alpha_x, d.alpha_y)
+                                    : phong_Lambda(v, d.phong, d.alpha_x, d.alpha_y);
+}
+
+/* What the paper prints in its place; GGX's is exact. */
+KERNEL real distribution_published_Lambda(distribution d, real3 v)
+{
+    real a = stretched_cot(v, d.alpha_x, d.alpha_y);
+    return d.kind == NDF_GGX        ? ggx_Lambda(v, d.alpha_x, d.alpha_y)
+           : d.kind == NDF_BECKMANN ? rational_fit_Lambda(a)
+                                    : rational_fit_Lambda(a*phong_fit_scale(d.phong));
+}
+
+/* The Lambda that masks and shadows. */
+KERNEL real distribution_Lambda(distribution d, real3 v)
+{
+    return d.masking == MASKING_PUBLISHED ? distribution_published_Lambda(d, v) : distribution_exact_Lambda(d, v);
+}
+
+/* The projected area of the microfacets that face v, sigma(v) = cos (1 + Lambda), cos = v.z > 0: exact, and with the
+ * Lambda that masks. */
+KERNEL real distribution_exact_sigma(distribution d, real3 v)
+{
+    return d.kind == NDF_GGX ? ggx_sigma(v, d.alpha_x, d.alpha_y) : v.z*(1 + distribution_exact_Lambda(d, v));
+}
+
+KERNEL real distribution_sigma(distribution d, real3 v)
+{
+    return d.masking == MASKING_PUBLISHED ? v.z*(1 + distribution_published_Lambda(d, v))
+                                          : distribution_exact_sigma(d, v);
+}
+
+/* A normal with density D cos_m, of any length. */
+KERNEL real3 distribution_sample_ndf(distribution d, real ux, real uy)
+{
+    return select3(d.kind == NDF_GGX, ggx_sample_ndf(ux, uy, d.alpha_x, d.alpha_y),
+                   select3(d.kind == NDF_BECKMANN, beckmann_sample_ndf(ux, uy, d.alpha_x, d.alpha_y),
+                           phong_sample_ndf(ux, uy, d.phong, d.alpha_x, d.alpha_y)));
+}
+
+/* A normal with density D (wo.wm)+/sigma(wo), of any length. */
+KERNEL real3 distribution_sample_vndf(distribution d, real3 wo, real ux, real uy)
+{
+    return select3(d.kind == NDF_GGX, ggx_sample_vndf(wo, ux, uy, d.alpha_x, d.alpha_y),
+                   select3(d.kind == NDF_BECKMANN, beckmann_sample_vndf(wo, ux, uy, d.alpha_x, d.alpha_y),
+                           phong_sample_ndf(ux, uy, d.phong, d.alpha_x, d.alpha_y)));
+}

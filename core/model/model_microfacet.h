@@ -1,0 +1,69 @@
+/* model_microfacet.h: what the models on kernel/microfacet.h share: rows of their parameter tables, and how they are
+ * prepared.
+ *
+ * [cs500] CS500 Project 3: SampleBrdf.
+ * SPDX-License-Identifier: MIT */
+#pragma once
+
+#include "../kernel/microfacet.h"
+#include "read_material.h"
+
+#ifdef FACET_PARAMETERS
+/* The rows that every distribution of normals ends with. */
+#define MICROFACET_PARAMETERS(SAMPLING_CHOICES, SAMPLING_LAST)                                                         \
+    {"kd", FACET_COLOUR, 0, 1, {0, 0, 0}, "1", "", "Lambertian term that is added"},                                   \
+        {"ks", FACET_COLOUR, 0, 1, {1, 1, 1}, "1", "", "reflectance at normal incidence (Schlick's Fresnel)"},         \
+        {"ior",       FACET_NUMBER, 0.1, 10,                                                                           \
+         {1.5, 0, 0}, "1",          "",  "index of refraction (exact dielectric Fresnel), not with ks"},               \
+        {"g2", FACET_CHOICE, 0, 1, {0, 0, 0}, "1", "correlated|separable", "masking-shadowing: 1/(1+Li+Lo) or G1 G1"}, \
+        {"masking",                                                                                                    \
+         FACET_CHOICE,                                                                                                 \
+         0,                                                                                                            \
+         1,                                                                                                            \
+         {0, 0, 0},                                                                                                    \
+         "1",                                                                                                          \
+         "exact|published",                                                                                            \
+         "Smith's G1, or the fit that the paper prints"},                                                              \
+    {                                                                                                                  \
+        "sampling", FACET_CHOICE, 0, SAMPLING_LAST, {0, 0, 0}, "1", SAMPLING_CHOICES,                                  \
+            "normals that samples are drawn from"                                                                      \
+    }
+#define ALPHA_PARAMETERS                                                                                               \
+    {"alpha", FACET_NUMBER, 1e-4, 4, {0.3, 0, 0}, "1", "", "roughness along both tangents"},                           \
+        {"alpha_x", FACET_NUMBER, 1e-4, 4, {0.3, 0, 0}, "1", "", "roughness along the tangent x, not with alpha"},     \
+    {                                                                                                                  \
+        "alpha_y", FACET_NUMBER, 1e-4, 4, {0.3, 0, 0}, "1", "", "roughness along the bitangent y, not with alpha"      \
+    }
+#endif
+
+#ifdef FACET_PREPARE
+static inline fresnel prepare_fresnel(const facet_material *m)
+{
+    return (fresnel){.kind = facet_material_given(m, "ior") ? FRESNEL_DIELECTRIC : FRESNEL_SCHLICK,
+                     .F0 = prepare_colour(m, "ks"),
+                     .eta = prepare_number(m, "ior")};
+}
+
+/* Everything but the distribution's own shape.  The lobe is chosen as [cs500, SampleBrdf] says, by
+ * |Kd|/(|Kd| + |Ks|); departure: a specular lobe keeps a probability of 1/8, because Fresnel's term is
+ * not 0 at grazing angles when Ks is. */
+static inline microfacet_params microfacet_prepare(const facet_material *m, int kind)
+{
+    microfacet_params p = {.F = prepare_fresnel(m), .kd = prepare_colour(m, "kd")};
+    p.d = (distribution){.kind = kind, .masking = prepare_choice(m, "masking"), .alpha_x = 1, .alpha_y = 1};
+    p.g2 = prepare_choice(m, "g2");
+    p.sampling = prepare_choice(m, "sampling");
+    const real kd = length3(p.kd);
+    const real ks = length3(fresnel_reflectance(p.F, 1));
+    p.p_diffuse = kd > 0 ? kmin(kd/(kd + ks), 0.875f) : (real)0;
+    return p;
+}
+
+/* The roughness of a distribution that has one. */
+static inline void prepare_alpha(const facet_material *m, distribution *d)
+{
+    const real alpha = prepare_number(m, "alpha");
+    d->alpha_x = facet_material_given(m, "alpha_x") ? prepare_number(m, "alpha_x") : alpha;
+    d->alpha_y = facet_material_given(m, "alpha_y") ? prepare_number(m, "alpha_y") : alpha;
+}
+#endif

@@ -1,0 +1,36 @@
+/* model_phong.h: the parameters of `phong`, and how they are prepared.
+ * SPDX-License-Identifier: MIT */
+#pragma once
+
+#include "model_microfacet.h"
+
+#ifdef FACET_PARAMETERS
+static const facet_parameter phong_parameters[] = {
+    {"exponent", FACET_NUMBER, 0, 1e6, {50, 0, 0}, "1", "", "n in D = (n + 2)/(2 pi) cos^n"},
+    {"alpha_x", FACET_NUMBER, 1e-3, 1, {0.2, 0, 0}, "1", "", "roughness sqrt(2/(n + 2)) along x, not with exponent"},
+    {"alpha_y", FACET_NUMBER, 1e-3, 1, {0.2, 0, 0}, "1", "", "roughness sqrt(2/(n + 2)) along y, not with exponent"},
+    MICROFACET_PARAMETERS("ndf", 0),
+};
+#endif
+
+#ifdef FACET_PREPARE
+/* Different roughness along x and y: the exponent is that of their geometric mean, and the slopes are
+ * stretched by the ratio to it. */
+static inline microfacet_params phong_prepare(const facet_material *m)
+{
+    microfacet_params p = microfacet_prepare(m, NDF_PHONG);
+    real exponent = prepare_number(m, "exponent");
+    if (facet_material_given(m, "alpha_x") || facet_material_given(m, "alpha_y")) {
+        const real alpha_x = prepare_number(m, "alpha_x");
+        const real alpha_y = prepare_number(m, "alpha_y");
+        const real mean = ksqrt(alpha_x*alpha_y);
+        exponent = kmax(2/(mean*mean) - 2, 0);
+        p.d.alpha_x = alpha_x/mean;
+        p.d.alpha_y = alpha_y/mean;
+    }
+    const real half_n = 0.5f*exponent + 1;
+    p.d.phong = (phong_shape){.exponent = exponent, .beta_inverse = half_n*kgamma_half_ratio(half_n)*INV_SQRT_PI};
+    p.sampling = SAMPLING_NDF;
+    return p;
+}
+#endif
