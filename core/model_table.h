@@ -24,7 +24,7 @@
 /* X(name, number of variants) */
 #define FACET_KERNELS(X)                                                                                               \
     X(lambert, 1)                                                                                                      \
-    X(microfacet, 12)                                                                                                  \
+    X(microfacet, 15)                                                                                                  \
     X(glass, 1)                                                                                                        \
     X(metallic_roughness, 1)
 
@@ -44,6 +44,8 @@
 /* EACH_VARIANT(n, CASE, name) is CASE(name, 0) ... CASE(name, n - 1), n one of the numbers above. */
 #define EACH_VARIANT(n, CASE, name) EACH_VARIANT_##n(CASE, name)
 #define EACH_VARIANT_1(CASE, name) CASE(name, 0)
-#define EACH_VARIANT_4(CASE, name) EACH_VARIANT_1(CASE, name) CASE(name, 1) CASE(name, 2) CASE(name, 3)
-#define EACH_VARIANT_8(CASE, name) EACH_VARIANT_4(CASE, name) CASE(name, 4) CASE(name, 5) CASE(name, 6) CASE(name, 7)
-#define EACH_VARIANT_12(CASE, name) EACH_VARIANT_8(CASE, name) CASE(name, 8) CASE(name, 9) CASE(name, 10) CASE(name, 11)
+#define EACH_VARIANT_5(CASE, name) EACH_VARIANT_1(CASE, name) CASE(name, 1) CASE(name, 2) CASE(name, 3) CASE(name, 4)
+#define EACH_VARIANT_10(CASE, name)                                                                                    \
+    EACH_VARIANT_5(CASE, name) CASE(name, 5) CASE(name, 6) CASE(name, 7) CASE(name, 8) CASE(name, 9)
+#define EACH_VARIANT_15(CASE, name)                                                                                    \
+    EACH_VARIANT_10(CASE, name) CASE(name, 10) CASE(name, 11) CASE(name, 12) CASE(name, 13) CASE(name, 14)

@@ -50,14 +50,13 @@ KERNEL real3 sample_cosine(real ux, real uy)
     return make3(sin*azimuth.x, sin*azimuth.y, ksqrt(ux));
 }
 
-/* A reflected sample from its direction, f cos and pdf; none unless it is valid. */
-KERNEL bsdf_sample complete_sample(real3 wi, real3 f, real pdf, int is_valid, int lobe)
+/* A reflected sample from its parts; none unless it is valid. */
+KERNEL bsdf_sample complete_sample(real3 wi, real3 weight, real pdf, int is_valid, int lobe)
 {
-    real inv = 1/(is_valid ? pdf : (real)1);
     bsdf_sample s;
     s.wi     = select3(is_valid, wi, make3(0, 0, 1));
     s.pdf    = is_valid ? pdf : (real)0;
-    s.weight = select3(is_valid, scale3(inv, f), splat3(0));
+    s.weight = select3(is_valid, weight, splat3(0));
     s.lobe   = lobe;
     s.eta    = 1;
     return s;

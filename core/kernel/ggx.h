@@ -46,14 +46,15 @@ KERNEL real3 ggx_sample_ndf(real ux, real uy, real alpha_x, real alpha_y)
 }
 
 /* A normal with density D(wm) G1(wo) (wo.wm)+/cos_o: in the stretched space, where the surface is a
- * hemisphere, the reflected direction is uniform on a spherical cap.  [dupuy23, listing 3]. */
+ * hemisphere, the reflected direction is uniform on a spherical cap.  [dupuy23, listing 3].
+ * Departure: the sphere has the radius of the stretched wo, which spares a normalisation. */
 KERNEL real3 ggx_sample_vndf(real3 wo, real ux, real uy, real alpha_x, real alpha_y)
 {
-    real inv      = 1/ggx_root(wo, alpha_x, alpha_y);
-    real3 v       = make3(alpha_x*wo.x*inv, alpha_y*wo.y*inv, wo.z*inv);
+    real r        = ggx_root(wo, alpha_x, alpha_y);
     real2 azimuth = kcossin_turn(ux);
-    real z        = (1 - uy)*(1 + v.z) - v.z;
-    real sin      = ksqrt(kmax((1 - z)*(1 + z), 0));
-    real3 h       = make3(sin*azimuth.x + v.x, sin*azimuth.y + v.y, z + v.z);
-    return make3(alpha_x*h.x, alpha_y*h.y, kmax(h.z, COS_SMALLEST));
+    real z        = (1 - uy)*(r + wo.z) - wo.z;
+    real sin      = ksqrt(kmax((r - z)*(r + z), 0));
+    real hx       = sin*azimuth.x + alpha_x*wo.x;
+    real hy       = sin*azimuth.y + alpha_y*wo.y;
+    return make3(alpha_x*hx, alpha_y*hy, kmax(z + wo.z, COS_SMALLEST));
 }

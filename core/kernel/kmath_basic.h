@@ -44,6 +44,13 @@ KERNEL real real_of(real_bits b)
     return x;
 }
 
+/* x where `condition` is true, else +0: a choice without a branch, for results that are tested again later (gcc would
+ * merge the two tests into control flow and not vectorise the loop). */
+KERNEL real keep_if(int condition, real x)
+{
+    return real_of(bits_of(x) & ((real_bits)0 - (real_bits)(condition != 0)));
+}
+
 /* |x|, and the smaller and larger of two (b if either is NaN); exact */
 KERNEL real kabs(real x) { return real_of(bits_of(x) & ~SIGN_BIT); }
 KERNEL real kmin(real a, real b) { return a < b ? a : b; }

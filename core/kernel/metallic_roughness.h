@@ -89,7 +89,7 @@ KERNEL real metallic_roughness_pdf(metallic_roughness_params p, real3 wi, real3 
     specular_term s = specular_at(d, G2_CORRELATED, wi, wo);
     real p_diffuse  = metallic_roughness_p_diffuse(p, wo);
     real pdf        = p_diffuse*(INV_PI*wi.z) + (1 - p_diffuse)*specular_visible_pdf(d, s, wo);
-    return is_above(wi, wo) ? pdf : (real)0;
+    return keep_if(is_above(wi, wo), pdf);
 }
 
 KERNEL bsdf_sample metallic_roughness_sample(metallic_roughness_params p, real3 wo, real3 u)
@@ -99,7 +99,8 @@ KERNEL bsdf_sample metallic_roughness_sample(metallic_roughness_params p, real3 
     real3 wi       = select3(is_diffuse, sample_cosine(u.x, u.y), reflect(wo, m));
     real pdf       = metallic_roughness_pdf(p, wi, wo);
     int is_valid   = (pdf > REAL_MIN) & (is_diffuse | (dot3(wo, m) > 0));
-    return complete_sample(wi, metallic_roughness_eval(p, wi, wo), pdf, is_valid,
+    real inv       = 1/(is_valid ? pdf : (real)1);
+    return complete_sample(wi, scale3(inv, metallic_roughness_eval(p, wi, wo)), pdf, is_valid,
                            LOBE_REFLECTION | (is_diffuse ? LOBE_DIFFUSE : LOBE_GLOSSY));
 }
 

@@ -26,14 +26,15 @@
 typedef struct microfacet_params {
     distribution d;
     fresnel F;
-    real3 kd;       /* diffuse reflectance */
-    real p_diffuse; /* probability of choosing the Lambertian lobe; 0 if and only if kd is 0 */
+    real3 kd;        /* diffuse reflectance */
+    real p_diffuse;  /* probability of choosing the Lambertian lobe */
+    int has_diffuse; /* whether kd is not 0 */
     int g2, sampling;
 } microfacet_params;
 
 /* The specular term at a pair of directions, but for Fresnel's. */
 typedef struct specular_term {
-    real3 h;      /* wi + wo, along wm */
+    real3 m;      /* along wm, of any length */
     real cos_d;   /* wi.wm = wo.wm */
     real D;       /* of wm */
     real sigma_o; /* projected area towards wo */
@@ -50,16 +51,24 @@ KERNEL real smith_rest(real cos_i, real cos_o, real sigma_i, real sigma_o, int g
     return g2 == G2_SEPARABLE ? separable : correlated;
 }
 
-KERNEL specular_term specular_at(distribution d, int g2, real3 wi, real3 wo)
+/* The term about a given normal m, of any length; cos_d = wo.wm. */
+KERNEL specular_term specular_about(distribution d, int g2, real3 wi, real3 wo, real3 m, real cos_d)
 {
     specular_term s;
-    s.h       = add3(wi, wo);
-    s.cos_d   = kmin(0.5f*length3(s.h), 1); /* |wi + wo| = 2 cos_d */
-    s.D       = distribution_D(d, s.h);
+    s.m       = m;
+    s.cos_d   = kmin(cos_d, 1);
+    s.D       = distribution_D(d, m);
     s.sigma_o = distribution_sigma(d, wo);
     s.rest    = smith_rest(wi.z, wo.z, distribution_sigma(d, wi), s.sigma_o, g2);
     s.inverse = 0.25f/(s.rest*s.sigma_o);
     return s;
+}
+
+/* The same about wi + wo, whose length is 2 cos_d. */
+KERNEL specular_term specular_at(distribution d, int g2, real3 wi, real3 wo)
+{
+    real3 h = add3(wi, wo);
+    return specular_about(d, g2, wi, wo, h, 0.5f*length3(h));
 }
 
 /* D V cos_i */
@@ -76,7 +85,7 @@ KERNEL real specular_visible_pdf(distribution d, specular_term s, real3 wo)
 KERNEL real specular_ndf_pdf(specular_term s)
 {
     real cos_d = kmax(s.cos_d, COS_SMALLEST);
-    return s.D*s.h.z/(8*cos_d*cos_d); /* cos_m = h.z/(2 cos_d) */
+    return s.D*s.m.z/(4*length3(s.m)*cos_d);
 }
 
 /* f cos_i of the mixture.  [cs500, EvalScattering]. */
@@ -85,7 +94,7 @@ KERNEL real3 microfacet_eval(microfacet_params p, real3 wi, real3 wo)
     specular_term s = specular_at(p.d, p.g2, wi, wo);
     real3 shine     = scale3(specular_f(s, wi), fresnel_reflectance(p.F, s.cos_d));
     real3 both      = madd3(shine, INV_PI*wi.z, p.kd);
-    real3 f         = select3(p.p_diffuse > 0, both, shine);
+    real3 f         = select3(p.has_diffuse, both, shine);
     return select3(is_above(wi, wo), f, splat3(0));
 }
 
@@ -97,28 +106,48 @@ KERNEL real microfacet_pdf(microfacet_params p, real3 wi, real3 wo)
     real visible    = specular_visible_pdf(p.d, s, wo);
     real P_r        = p.sampling == SAMPLING_NDF ? all : visible;
     real both       = p.p_diffuse*(INV_PI*wi.z) + (1 - p.p_diffuse)*P_r;
-    real pdf        = p.p_diffuse > 0 ? both : P_r;
-    return is_above(wi, wo) ? pdf : (real)0;
+    real pdf        = p.has_diffuse ? both : P_r;
+    return keep_if(is_above(wi, wo), pdf);
 }
 
-/* wi from the chosen lobe: the cosine direction, or wo mirrored about a normal.  [cs500, SampleBrdf].  The normal is
- * exactly that of wi + wo, so that eval and pdf belong to the sample to the last bit. */
-KERNEL bsdf_sample microfacet_sample(microfacet_params p, real3 wo, real3 u)
+/* A mirror direction about a visible normal, exact masking and no Lambertian term: the weight is F G2/G1(wo), without
+ * D, which cancels.  The density is that of the normal drawn, exact where wi's rounding would blur it. */
+KERNEL bsdf_sample microfacet_sample_visible(microfacet_params p, real3 wo, real3 m)
+{
+    real towards    = dot3(wo, m);
+    real ratio      = towards/dot3(m, m);
+    real3 wi        = sub3(scale3(2*ratio, m), wo);
+    specular_term s = specular_about(p.d, p.g2, wi, wo, m, ksqrt(kmax(ratio*towards, 0)));
+    real3 weight    = scale3(s.sigma_o*wi.z/s.rest, fresnel_reflectance(p.F, s.cos_d));
+    real pdf        = 0.25f*s.D/s.sigma_o;
+    int is_valid    = is_above(wi, wo) & (towards > 0) & (pdf > REAL_MIN);
+    return complete_sample(wi, weight, pdf, is_valid, LOBE_REFLECTION | LOBE_GLOSSY);
+}
+
+/* A direction of the mixture: the cosine direction, or wo mirrored about a normal.  [cs500, SampleBrdf]. */
+KERNEL bsdf_sample microfacet_sample_mixture(microfacet_params p, real3 wo, real3 u, real3 m)
 {
     int is_diffuse = u.z < p.p_diffuse;
-    real3 m        = select3(p.sampling == SAMPLING_NDF, distribution_sample_ndf(p.d, u.x, u.y),
-                             distribution_sample_vndf(p.d, wo, u.x, u.y));
     real3 wi       = select3(is_diffuse, sample_cosine(u.x, u.y), reflect(wo, m));
-    real3 f        = microfacet_eval(p, wi, wo);
     real pdf       = microfacet_pdf(p, wi, wo);
     int is_valid   = (pdf > REAL_MIN) & (is_diffuse | (dot3(wo, m) > 0));
-    return complete_sample(wi, f, pdf, is_valid, LOBE_REFLECTION | (is_diffuse ? LOBE_DIFFUSE : LOBE_GLOSSY));
+    real inv       = 1/(is_valid ? pdf : (real)1);
+    return complete_sample(wi, scale3(inv, microfacet_eval(p, wi, wo)), pdf, is_valid,
+                           LOBE_REFLECTION | (is_diffuse ? LOBE_DIFFUSE : LOBE_GLOSSY));
+}
+
+KERNEL bsdf_sample microfacet_sample(microfacet_params p, real3 wo, real3 u)
+{
+    real3 m    = select3(p.sampling == SAMPLING_NDF, distribution_sample_ndf(p.d, u.x, u.y),
+                         distribution_sample_vndf(p.d, wo, u.x, u.y));
+    int is_one = (p.sampling == SAMPLING_VNDF) & (p.d.masking == MASKING_EXACT) & !p.has_diffuse;
+    return is_one ? microfacet_sample_visible(p, wo, m) : microfacet_sample_mixture(p, wo, u, m);
 }
 
 /* What the mixture's samples can be. */
 KERNEL int microfacet_lobes(microfacet_params p)
 {
-    return LOBE_REFLECTION | LOBE_GLOSSY | (p.p_diffuse > 0 ? LOBE_DIFFUSE : 0);
+    return LOBE_REFLECTION | LOBE_GLOSSY | (p.has_diffuse ? LOBE_DIFFUSE : 0);
 }
 
 /* D, Lambda, G1 at m. */
@@ -128,32 +157,37 @@ KERNEL real3 microfacet_terms(microfacet_params p, real3 m)
     return make3(distribution_D(p.d, m), Lambda, m.z > 0 ? 1/(1 + Lambda) : (real)0);
 }
 
-/* The loops are compiled four times for each distribution: for the usual settings, known to the compiler; for the
- * exact masking with either way of sampling; and for the published masking. */
-#define MICROFACET_USUAL     0
-#define MICROFACET_VNDF      1
-#define MICROFACET_NDF       2
-#define MICROFACET_PUBLISHED 3
+/* The loops are compiled five times for each distribution; only the last two know neither how normals are drawn nor
+ * whether there is a Lambertian term. */
+#define MICROFACET_USUAL     0 /* as PURE, with Schlick's Fresnel and correlated masking */
+#define MICROFACET_PURE      1 /* one lobe: visible normals, exact masking */
+#define MICROFACET_MIXED     2 /* the same over a Lambertian term */
+#define MICROFACET_NDF       3 /* all normals */
+#define MICROFACET_PUBLISHED 4 /* the masking that the paper prints */
+#define MICROFACET_SETTINGS  5
 
 KERNEL int microfacet_variant(microfacet_params p)
 {
-    int is_usual = (p.F.kind == FRESNEL_SCHLICK) & (p.g2 == G2_CORRELATED) & !(p.p_diffuse > 0);
-    int exact    = p.sampling == SAMPLING_NDF ? MICROFACET_NDF : (is_usual ? MICROFACET_USUAL : MICROFACET_VNDF);
-    return 4*p.d.kind + (p.d.masking == MASKING_PUBLISHED ? MICROFACET_PUBLISHED : exact);
+    int is_usual = (p.F.kind == FRESNEL_SCHLICK) & (p.g2 == G2_CORRELATED);
+    int one      = is_usual ? MICROFACET_USUAL : MICROFACET_PURE;
+    int visible  = p.has_diffuse ? MICROFACET_MIXED : one;
+    int exact    = p.sampling == SAMPLING_NDF ? MICROFACET_NDF : visible;
+    return MICROFACET_SETTINGS*p.d.kind + (p.d.masking == MASKING_PUBLISHED ? MICROFACET_PUBLISHED : exact);
 }
 
 /* p with the fields that are the same throughout a variant set to constants. */
 KERNEL microfacet_params microfacet_fix(microfacet_params p, int variant)
 {
-    int settings        = variant%4;
+    int settings        = variant%MICROFACET_SETTINGS;
     int is_usual        = settings == MICROFACET_USUAL;
-    int is_published    = settings == MICROFACET_PUBLISHED;
+    int is_one          = is_usual | (settings == MICROFACET_PURE);
+    int is_visible      = is_one | (settings == MICROFACET_MIXED);
     microfacet_params q = p;
-    q.d.kind            = variant/4;
-    q.d.masking         = is_published ? MASKING_PUBLISHED : MASKING_EXACT;
-    q.sampling          = is_published ? p.sampling : (settings == MICROFACET_NDF ? SAMPLING_NDF : SAMPLING_VNDF);
+    q.d.kind            = variant/MICROFACET_SETTINGS;
+    q.d.masking         = settings == MICROFACET_PUBLISHED ? MASKING_PUBLISHED : MASKING_EXACT;
+    q.sampling          = is_visible ? SAMPLING_VNDF : (settings == MICROFACET_NDF ? SAMPLING_NDF : p.sampling);
     q.F.kind            = is_usual ? FRESNEL_SCHLICK : p.F.kind;
     q.g2                = is_usual ? G2_CORRELATED : p.g2;
-    q.p_diffuse         = is_usual ? (real)0 : p.p_diffuse;
+    q.has_diffuse       = is_one ? 0 : (settings == MICROFACET_MIXED ? 1 : p.has_diffuse);
     return q;
 }

@@ -80,17 +80,18 @@ KERNEL real phong_fraction(real b, real x, real z)
  * with F the continued fraction.  Derivation: docs/models/phong.md. */
 KERNEL real phong_Lambda(real3 v, phong_shape shape, real alpha_x, real alpha_y)
 {
-    real mu        = kclamp(stretched_cot(v, alpha_x, alpha_y), COT_SMALLEST, COT_LARGEST);
-    real p         = 0.5f*shape.exponent + 1;
-    real b         = 0.5f*shape.exponent + 0.5f;
-    real mu2       = mu*mu;
-    real x         = 1/(1 + mu2);
-    real z         = mu2*x;
-    real root_z    = mu*ksqrt(x);
-    real x_p       = shape.beta_inverse*kexp(-p*klog1p(mu2));
-    int is_grazing = (z*p < PHONG_SERIES_LIMIT) & (z < PHONG_SERIES_COS2);
-    real series    = phong_series(p, is_grazing ? z : (real)0);
-    real fraction  = phong_fraction(b, is_grazing ? (real)0.5f : x, is_grazing ? (real)0.5f : z);
+    real mu     = kclamp(stretched_cot(v, alpha_x, alpha_y), COT_SMALLEST, COT_LARGEST);
+    real p      = 0.5f*shape.exponent + 1;
+    real b      = 0.5f*shape.exponent + 0.5f;
+    real mu2    = mu*mu;
+    real x      = 1/(1 + mu2);
+    real z      = mu2*x;
+    real root_z = mu*ksqrt(x);
+    real x_p    = shape.beta_inverse*kexp(-p*klog1p(mu2));
+    /* One comparison, and arguments limited by kmin: a test of two keeps gcc from vectorising the loop around. */
+    int is_grazing = kmax(z*p*(1/PHONG_SERIES_LIMIT), z*(1/PHONG_SERIES_COS2)) < 1;
+    real series    = phong_series(p, kmin(z, kmin(PHONG_SERIES_COS2, PHONG_SERIES_LIMIT/p)));
+    real fraction  = phong_fraction(b, x, z);
     real near      = x_p*(0.5f/(b*root_z) + root_z*series) - 0.5f;
     real far       = x_p*fraction/(4*b*p*root_z);
     return is_grazing ? near : far;

@@ -21,7 +21,7 @@
 #if defined(__clang__)
 #define UNROLL _Pragma("clang loop unroll(full)")
 #else
-#define UNROLL
+#define UNROLL _Pragma("GCC unroll 127")
 #endif
 
 #if FACET_REAL_IS_DOUBLE

@@ -55,6 +55,7 @@ static inline microfacet_params microfacet_prepare(const facet_material *m, int 
     p.sampling = prepare_choice(m, "sampling");
     const real kd = length3(p.kd);
     const real ks = length3(fresnel_reflectance(p.F, 1));
+    p.has_diffuse = kd > 0;
     p.p_diffuse = kd > 0 ? kmin(kd/(kd + ks), 0.875f) : (real)0;
     return p;
 }
