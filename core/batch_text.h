@@ -5,6 +5,7 @@
  * knows that the outputs do not change them.
  * SPDX-License-Identifier: MIT */
 #define FACET_REAL_IS_DOUBLE 0
+#define FACET_LOOPS
 #include "batch.h"
 #include "model_table.h"
 #include "prepared.h"
@@ -17,7 +18,7 @@ static inline real3 gather(facet_dirs d, size_t i)
 }
 
 /* One loop per variant; a variant's constants are known where the loop is compiled. */
-#define LOOP_ROWS(name, variants)                                                                                      \
+#define LOOP_ROWS(name)                                                                                                \
     KERNEL void name##_eval_each(name##_params p, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f)                 \
     {                                                                                                                  \
         float *restrict const r = f.r, *restrict const g = f.g, *restrict const b = f.b;                               \
@@ -66,26 +67,26 @@ static inline real3 gather(facet_dirs d, size_t i)
     static void name##_eval_loop(const prepared *p, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f)               \
     {                                                                                                                  \
         switch (p->variant) {                                                                                          \
-            EACH_VARIANT(variants, EVAL_CASE, name)                                                                    \
+            EACH_VARIANT_##name(EVAL_CASE, name)                                                                       \
         }                                                                                                              \
     }                                                                                                                  \
     static void name##_pdf_loop(const prepared *p, size_t n, facet_dirs wi, facet_dirs wo, float *pdf)                 \
     {                                                                                                                  \
         switch (p->variant) {                                                                                          \
-            EACH_VARIANT(variants, PDF_CASE, name)                                                                     \
+            EACH_VARIANT_##name(PDF_CASE, name)                                                                        \
         }                                                                                                              \
     }                                                                                                                  \
     static void name##_eval_pdf_loop(const prepared *p, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f,           \
                                      float *pdf)                                                                       \
     {                                                                                                                  \
         switch (p->variant) {                                                                                          \
-            EACH_VARIANT(variants, EVAL_PDF_CASE, name)                                                                \
+            EACH_VARIANT_##name(EVAL_PDF_CASE, name)                                                                   \
         }                                                                                                              \
     }                                                                                                                  \
     static void name##_sample_loop(const prepared *p, size_t n, facet_dirs wo, facet_dirs u, facet_samples s)          \
     {                                                                                                                  \
         switch (p->variant) {                                                                                          \
-            EACH_VARIANT(variants, SAMPLE_CASE, name)                                                                  \
+            EACH_VARIANT_##name(SAMPLE_CASE, name)                                                                     \
         }                                                                                                              \
     }
 #define EVAL_CASE(name, v)                                                                                             \
@@ -104,10 +105,10 @@ static inline real3 gather(facet_dirs d, size_t i)
     case v: name##_sample_each(name##_fix(p->of.name, v), n, wo, u, s); break;
 FACET_KERNELS(LOOP_ROWS)
 
-#define EVAL_ENTRY(name, variants) name##_eval_loop,
-#define PDF_ENTRY(name, variants) name##_pdf_loop,
-#define EVAL_PDF_ENTRY(name, variants) name##_eval_pdf_loop,
-#define SAMPLE_ENTRY(name, variants) name##_sample_loop,
+#define EVAL_ENTRY(name) name##_eval_loop,
+#define PDF_ENTRY(name) name##_pdf_loop,
+#define EVAL_PDF_ENTRY(name) name##_eval_pdf_loop,
+#define SAMPLE_ENTRY(name) name##_sample_loop,
 const batch_loops BATCH_LOOPS = {
     .name = BATCH_NAME,
     .eval = {FACET_KERNELS(EVAL_ENTRY)},

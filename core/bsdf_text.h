@@ -58,32 +58,32 @@ facet_status NAME(prepare)(const facet_material *material, STORAGE *bsdf, facet_
 }
 
 /* One function per kernel and verb, which runs the code of the material's variant. */
-#define VERB_ROWS(name, variants)                                                                                      \
+#define VERB_ROWS(name)                                                                                                \
     static real3 name##_eval_any(const prepared *p, real3 wi, real3 wo)                                                \
     {                                                                                                                  \
         switch (p->variant) {                                                                                          \
-            EACH_VARIANT(variants, EVAL_CASE, name)                                                                    \
+            EACH_VARIANT_##name(EVAL_CASE, name)                                                                       \
         }                                                                                                              \
         return splat3(0);                                                                                              \
     }                                                                                                                  \
     static real name##_pdf_any(const prepared *p, real3 wi, real3 wo)                                                  \
     {                                                                                                                  \
         switch (p->variant) {                                                                                          \
-            EACH_VARIANT(variants, PDF_CASE, name)                                                                     \
+            EACH_VARIANT_##name(PDF_CASE, name)                                                                        \
         }                                                                                                              \
         return 0;                                                                                                      \
     }                                                                                                                  \
     static real3 name##_eval_pdf_any(const prepared *p, real3 wi, real3 wo, real *pdf)                                 \
     {                                                                                                                  \
         switch (p->variant) {                                                                                          \
-            EACH_VARIANT(variants, EVAL_PDF_CASE, name)                                                                \
+            EACH_VARIANT_##name(EVAL_PDF_CASE, name)                                                                   \
         }                                                                                                              \
         return splat3(0);                                                                                              \
     }                                                                                                                  \
     static bsdf_sample name##_sample_any(const prepared *p, real3 wo, real3 u)                                         \
     {                                                                                                                  \
         switch (p->variant) {                                                                                          \
-            EACH_VARIANT(variants, SAMPLE_CASE, name)                                                                  \
+            EACH_VARIANT_##name(SAMPLE_CASE, name)                                                                     \
         }                                                                                                              \
         return (bsdf_sample){.pdf = 0};                                                                                \
     }
@@ -112,7 +112,7 @@ void NAME(eval)(const STORAGE *bsdf, const real wi[3], const real wo[3], real f[
 {
     const prepared *p = content(bsdf);
     switch (p->kernel) {
-#define EVAL_ROW(name, variants)                                                                                       \
+#define EVAL_ROW(name)                                                                                                 \
     case KERNEL_##name: store3(f, name##_eval_any(p, load3(wi), load3(wo))); break;
         FACET_KERNELS(EVAL_ROW)
     }
@@ -122,7 +122,7 @@ real NAME(pdf)(const STORAGE *bsdf, const real wi[3], const real wo[3])
 {
     const prepared *p = content(bsdf);
     switch (p->kernel) {
-#define PDF_ROW(name, variants)                                                                                        \
+#define PDF_ROW(name)                                                                                                  \
     case KERNEL_##name: return name##_pdf_any(p, load3(wi), load3(wo));
         FACET_KERNELS(PDF_ROW)
     }
@@ -134,7 +134,7 @@ real NAME(eval_pdf)(const STORAGE *bsdf, const real wi[3], const real wo[3], rea
     const prepared *p = content(bsdf);
     real pdf = 0;
     switch (p->kernel) {
-#define EVAL_PDF_ROW(name, variants)                                                                                   \
+#define EVAL_PDF_ROW(name)                                                                                             \
     case KERNEL_##name: store3(f, name##_eval_pdf_any(p, load3(wi), load3(wo), &pdf)); break;
         FACET_KERNELS(EVAL_PDF_ROW)
     }
@@ -146,7 +146,7 @@ SAMPLE NAME(sample)(const STORAGE *bsdf, const real wo[3], const real u[3])
     const prepared *p = content(bsdf);
     bsdf_sample s = {.pdf = 0};
     switch (p->kernel) {
-#define SAMPLE_ROW(name, variants)                                                                                     \
+#define SAMPLE_ROW(name)                                                                                               \
     case KERNEL_##name: s = name##_sample_any(p, load3(wo), load3(u)); break;
         FACET_KERNELS(SAMPLE_ROW)
     }
@@ -162,7 +162,7 @@ TERMS NAME(terms)(const STORAGE *bsdf, const real m[3])
     const prepared *p = content(bsdf);
     real3 t = splat3(0);
     switch (p->kernel) {
-#define TERMS_ROW(name, variants)                                                                                      \
+#define TERMS_ROW(name)                                                                                                \
     case KERNEL_##name: t = name##_terms(p->of.name, load3(m)); break;
         FACET_KERNELS(TERMS_ROW)
     }
@@ -173,7 +173,7 @@ int NAME(lobes)(const STORAGE *bsdf)
 {
     const prepared *p = content(bsdf);
     switch (p->kernel) {
-#define LOBES_ROW(name, variants)                                                                                      \
+#define LOBES_ROW(name)                                                                                                \
     case KERNEL_##name: return name##_lobes(p->of.name);
         FACET_KERNELS(LOBES_ROW)
     }

@@ -3,7 +3,8 @@
  * A kernel file core/kernel/NAME.h defines, beside its formulas, NAME_params, NAME_eval, NAME_pdf, NAME_sample,
  * NAME_lobes and NAME_terms.  Where settings that are the same for a whole material choose between formulas, the code
  * is compiled once for each VARIANT of the settings, so that a batch never chooses per element: NAME_variant gives the
- * variant of prepared parameters, and NAME_fix sets the fields that are constant in a variant to those constants.
+ * variant of prepared parameters, NAME_fix sets the fields that are constant in a variant to those constants, and
+ * EACH_VARIANT_NAME(CASE, NAME) is CASE(NAME, v) for each variant v.
  *
  * A model file core/model/model_NAME.h defines, under FACET_PARAMETERS, the array NAME_parameters, and under
  * FACET_PREPARE NAME_prepare, which turns a checked facet_material into the parameters of its kernel.
@@ -21,12 +22,12 @@
 #include "model/model_metallic_roughness.h"
 #include "model/model_phong.h"
 
-/* X(name, number of variants) */
+/* X(name) */
 #define FACET_KERNELS(X)                                                                                               \
-    X(lambert, 1)                                                                                                      \
-    X(microfacet, 15)                                                                                                  \
-    X(glass, 1)                                                                                                        \
-    X(metallic_roughness, 1)
+    X(lambert)                                                                                                         \
+    X(microfacet)                                                                                                      \
+    X(glass)                                                                                                           \
+    X(metallic_roughness)
 
 /* X(name, kernel, summary, source) */
 #define FACET_MODELS(X)                                                                                                \
@@ -40,12 +41,3 @@
       "CS500 Project 3, exact F; Walter 2007, s. 4")                                                                   \
     X(metallic_roughness, metallic_roughness, "glTF's material: dielectric over diffuse, blended towards a metal",     \
       "glTF 2.0 Specification, appendix B")
-
-/* EACH_VARIANT(n, CASE, name) is CASE(name, 0) ... CASE(name, n - 1), n one of the numbers above. */
-#define EACH_VARIANT(n, CASE, name) EACH_VARIANT_##n(CASE, name)
-#define EACH_VARIANT_1(CASE, name) CASE(name, 0)
-#define EACH_VARIANT_5(CASE, name) EACH_VARIANT_1(CASE, name) CASE(name, 1) CASE(name, 2) CASE(name, 3) CASE(name, 4)
-#define EACH_VARIANT_10(CASE, name)                                                                                    \
-    EACH_VARIANT_5(CASE, name) CASE(name, 5) CASE(name, 6) CASE(name, 7) CASE(name, 8) CASE(name, 9)
-#define EACH_VARIANT_15(CASE, name)                                                                                    \
-    EACH_VARIANT_10(CASE, name) CASE(name, 10) CASE(name, 11) CASE(name, 12) CASE(name, 13) CASE(name, 14)

@@ -21,8 +21,15 @@ static const facet_model_info models[] = {FACET_MODELS(INFO_ROW)};
 FACET_MODELS(FITS_ROW)
 
 /* Parameters that say the same thing in two ways: at most one side may be given. */
-static const char *const exclusive[][2] = {
-    {"alpha", "alpha_x"}, {"alpha", "alpha_y"}, {"exponent", "alpha_x"}, {"exponent", "alpha_y"}, {"ks", "ior"}};
+static const char *const exclusive[][2] = {{"alpha", "alpha_x"},    {"alpha", "alpha_y"}, {"exponent", "alpha_x"},
+                                           {"exponent", "alpha_y"}, {"ks", "ior"},        {"ks", "metal"},
+                                           {"ks", "eta"},           {"ks", "k"},          {"f82", "ior"},
+                                           {"f82", "metal"},        {"f82", "eta"},       {"f82", "k"},
+                                           {"ior", "metal"},        {"ior", "eta"},       {"ior", "k"},
+                                           {"metal", "eta"},        {"metal", "k"}};
+
+/* Parameters that mean nothing without each other. */
+static const char *const together[][2] = {{"eta", "k"}, {"k", "eta"}};
 
 size_t facet_model_count(void)
 {
@@ -154,6 +161,15 @@ facet_status facet_material_set(facet_material *material, const char *name, cons
     return FACET_OK;
 }
 
+/* Refuses a parameter whose partner is missing; to be asked when all are set. */
+static facet_status check_together(const facet_material *material, facet_error *why)
+{
+    for (size_t i = 0; i < sizeof together/sizeof together[0]; i++)
+        if (facet_material_given(material, together[i][0]) && !facet_material_given(material, together[i][1]))
+            return facet_error_set(why, FACET_BAD_VALUE, together[i][0], "'%s' is missing; give both", together[i][1]);
+    return FACET_OK;
+}
+
 facet_status facet_material_check(const facet_material *material, facet_error *why)
 {
     if (!material || material->struct_size != sizeof *material || material->model >= facet_model_count())
@@ -164,7 +180,7 @@ facet_status facet_material_check(const facet_material *material, facet_error *w
             const facet_status status = check_value(&model->parameters[i], material->values[i][k], why);
             if (status) return status;
         }
-    return FACET_OK;
+    return check_together(material, why);
 }
 
 /* The index of `text` among "a|b|c", or -1. */
@@ -285,6 +301,7 @@ facet_status facet_material_parse(const char *text, facet_material *material, fa
         status = set_word(&parsed, word, why);
         if (status) return status;
     }
-    *material = parsed;
-    return FACET_OK;
+    status = check_together(&parsed, why);
+    if (status == FACET_OK) *material = parsed;
+    return status;
 }

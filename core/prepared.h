@@ -6,7 +6,7 @@
 
 #include "model_table.h"
 
-#define KERNEL_ENUM_ROW(name, variants) KERNEL_##name,
+#define KERNEL_ENUM_ROW(name) KERNEL_##name,
 enum { FACET_KERNELS(KERNEL_ENUM_ROW) KERNEL_COUNT };
 
 #define MODEL_ENUM_ROW(name, kernel, summary, source) MODEL_##name,
@@ -16,7 +16,7 @@ enum { FACET_MODELS(MODEL_ENUM_ROW) MODEL_COUNT };
 typedef struct __attribute__((may_alias)) prepared {
     int kernel, variant;
     union {
-#define MEMBER_ROW(name, variants) name##_params name;
+#define MEMBER_ROW(name) name##_params name;
         FACET_KERNELS(MEMBER_ROW)
     } of;
 } prepared;

@@ -25,6 +25,14 @@ typedef struct kernel_access {
     double (*fresnel_dielectric)(double c, double eta);
     /* Schlick's approximation with the dielectric's reflectance at normal incidence. */
     double (*fresnel_schlick)(double c, double eta);
+    double (*fresnel_conductor)(double c, double eta, double k);
+    /* F82 with the reflectance `F0` and the tint `tint`. */
+    double (*fresnel_f82)(double c, double F0, double tint);
+    /* 2 Int F(c) c dc */
+    double (*schlick_average)(double F0, double F90);
+    double (*dielectric_average)(double eta);
+    double (*conductor_average)(double eta, double k);
+    double (*f82_average)(double F0, double tint);
 } kernel_access;
 
 extern const kernel_access kernel_access_f32, kernel_access_f64;

@@ -47,6 +47,41 @@ static double schlick(double c, double eta)
     return (double)fresnel_schlick(F0, splat3(1), (real)c).x;
 }
 
+static double conductor(double c, double eta, double k)
+{
+    return (double)fresnel_conductor3((real)c, splat3((real)eta), splat3((real)k)).y;
+}
+
+static real3 strength_of(double F0, double tint)
+{
+    return fresnel_f82_strength(splat3((real)F0), splat3((real)tint));
+}
+
+static double f82(double c, double F0, double tint)
+{
+    return (double)fresnel_f82(splat3((real)F0), strength_of(F0, tint), (real)c).z;
+}
+
+static double schlick_average(double F0, double F90)
+{
+    return (double)fresnel_schlick_average(splat3((real)F0), splat3((real)F90)).y;
+}
+
+static double dielectric_average(double eta)
+{
+    return (double)fresnel_dielectric_average((real)eta);
+}
+
+static double conductor_average(double eta, double k)
+{
+    return (double)fresnel_conductor_average((real)eta, (real)k);
+}
+
+static double f82_average(double F0, double tint)
+{
+    return (double)fresnel_f82_average(splat3((real)F0), strength_of(F0, tint)).x;
+}
+
 const kernel_access ACCESS = {
     .name = FACET_REAL_IS_DOUBLE ? "double" : "float",
     .epsilon = (double)REAL_EPSILON,
@@ -54,4 +89,10 @@ const kernel_access ACCESS = {
     .sample_ndf = sample_ndf,
     .fresnel_dielectric = dielectric,
     .fresnel_schlick = schlick,
+    .fresnel_conductor = conductor,
+    .fresnel_f82 = f82,
+    .schlick_average = schlick_average,
+    .dielectric_average = dielectric_average,
+    .conductor_average = conductor_average,
+    .f82_average = f82_average,
 };

@@ -4,6 +4,7 @@
 SPDX-License-Identifier: MIT
 """
 import os
+import pathlib
 import shutil
 import subprocess
 import sys
@@ -20,6 +21,7 @@ import check_names
 import check_symbols
 import check_text
 import format as layout
+import make_metals
 
 SPDX = "/* SPDX-License-Identifier: MIT */\n"
 
@@ -309,6 +311,22 @@ class Layout(unittest.TestCase):
     def test_trailing_comments_stay_in_one_column(self):
         self.assert_tight("x = a * b; /* one */\ny = c;     /* two,\n            * three */\nz;\n",
                           "x = a*b; /* one */\ny = c;   /* two,\n          * three */\nz;\n")
+
+
+class Metals(CheckTest):
+    def test_header_is_what_is_written(self):
+        metals = make_metals.all_metals()
+        text = make_metals.header_text(metals)
+        check = lambda written: make_metals.check(pathlib.Path(self.write("metals.h", written)), metals)
+        self.assertEqual(check(text), [])
+        self.assertEqual(check(text.replace(" */", "\n   */")), [])
+        self.assert_one(check(text.replace("4.47323", "4.47324")), "metals.h")
+
+    def test_gold_is_held_in_gamut(self):
+        gold = next(metal for metal in make_metals.all_metals() if metal.name == "Au")
+        self.assertGreater(gold.F0[0], 1)
+        self.assertEqual(gold.held[0], make_metals.HIGHEST)
+        self.assertEqual(gold.held[1:], gold.F0[1:])
 
 
 if __name__ == "__main__":

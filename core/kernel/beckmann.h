@@ -62,7 +62,7 @@ KERNEL real3 beckmann_sample_ndf(real ux, real uy, real alpha_x, real alpha_y)
  *     P(slope > t) = (a erfc(t) + exp(-t^2)/sqrt(pi)) / (a erfc(-a) + exp(-a^2)/sqrt(pi)).
  * Solves P = u by Newton's method kept inside a shrinking bracket: 2^-SLOPE_STEPS of it at worst, quadratic
  * almost everywhere (residual in u: at most 3e-7 in float, 1e-15 in double, over a in [1e-3, 1e6]). */
-KERNEL real beckmann_visible_slope(real a, real u)
+LARGE_KERNEL real beckmann_visible_slope(real a, real u)
 {
     real total = a*kerfc(-a) + INV_SQRT_PI*kexp_neg_square(a);
     real low   = -kmin(a, SLOPE_LIMIT);

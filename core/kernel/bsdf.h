@@ -61,3 +61,16 @@ KERNEL bsdf_sample complete_sample(real3 wi, real3 weight, real pdf, int is_vali
     s.eta    = 1;
     return s;
 }
+
+/* What model_table.h asks for, of a kernel whose settings choose nothing. */
+#define ONE_VARIANT(name)                                                                                              \
+    KERNEL int name##_variant(name##_params p)                                                                         \
+    {                                                                                                                  \
+        (void)p;                                                                                                       \
+        return 0;                                                                                                      \
+    }                                                                                                                  \
+    KERNEL name##_params name##_fix(name##_params p, int variant)                                                      \
+    {                                                                                                                  \
+        (void)variant;                                                                                                 \
+        return p;                                                                                                      \
+    }

@@ -80,15 +80,5 @@ KERNEL real3 glass_terms(glass_params p, real3 m)
     return splat3(0);
 }
 
-/* One variant. */
-KERNEL int glass_variant(glass_params p)
-{
-    (void)p;
-    return 0;
-}
-
-KERNEL glass_params glass_fix(glass_params p, int variant)
-{
-    (void)variant;
-    return p;
-}
+ONE_VARIANT(glass)
+#define EACH_VARIANT_glass(CASE, name) CASE(name, 0)

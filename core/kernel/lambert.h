@@ -50,15 +50,5 @@ KERNEL real3 lambert_terms(lambert_params p, real3 m)
     return splat3(0);
 }
 
-/* One variant. */
-KERNEL int lambert_variant(lambert_params p)
-{
-    (void)p;
-    return 0;
-}
-
-KERNEL lambert_params lambert_fix(lambert_params p, int variant)
-{
-    (void)variant;
-    return p;
-}
+ONE_VARIANT(lambert)
+#define EACH_VARIANT_lambert(CASE, name) CASE(name, 0)

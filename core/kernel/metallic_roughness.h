@@ -116,15 +116,5 @@ KERNEL real3 metallic_roughness_terms(metallic_roughness_params p, real3 m)
     return make3(ggx_D(m, p.alpha, p.alpha), Lambda, m.z > 0 ? 1/(1 + Lambda) : (real)0);
 }
 
-/* One variant. */
-KERNEL int metallic_roughness_variant(metallic_roughness_params p)
-{
-    (void)p;
-    return 0;
-}
-
-KERNEL metallic_roughness_params metallic_roughness_fix(metallic_roughness_params p, int variant)
-{
-    (void)variant;
-    return p;
-}
+ONE_VARIANT(metallic_roughness)
+#define EACH_VARIANT_metallic_roughness(CASE, name) CASE(name, 0)

@@ -29,6 +29,7 @@ typedef struct microfacet_params {
     real3 kd;        /* diffuse reflectance */
     real p_diffuse;  /* probability of choosing the Lambertian lobe */
     int has_diffuse; /* whether kd is not 0 */
+    int is_one;      /* whether samples have one lobe: visible normals, exact masking, no kd */
     int g2, sampling;
 } microfacet_params;
 
@@ -138,10 +139,9 @@ KERNEL bsdf_sample microfacet_sample_mixture(microfacet_params p, real3 wo, real
 
 KERNEL bsdf_sample microfacet_sample(microfacet_params p, real3 wo, real3 u)
 {
-    real3 m    = select3(p.sampling == SAMPLING_NDF, distribution_sample_ndf(p.d, u.x, u.y),
-                         distribution_sample_vndf(p.d, wo, u.x, u.y));
-    int is_one = (p.sampling == SAMPLING_VNDF) & (p.d.masking == MASKING_EXACT) & !p.has_diffuse;
-    return is_one ? microfacet_sample_visible(p, wo, m) : microfacet_sample_mixture(p, wo, u, m);
+    real3 m = select3(p.sampling == SAMPLING_NDF, distribution_sample_ndf(p.d, u.x, u.y),
+                      distribution_sample_vndf(p.d, wo, u.x, u.y));
+    return p.is_one ? microfacet_sample_visible(p, wo, m) : microfacet_sample_mixture(p, wo, u, m);
 }
 
 /* What the mixture's samples can be. */
@@ -157,37 +157,59 @@ KERNEL real3 microfacet_terms(microfacet_params p, real3 m)
     return make3(distribution_D(p.d, m), Lambda, m.z > 0 ? 1/(1 + Lambda) : (real)0);
 }
 
-/* The loops are compiled five times for each distribution; only the last two know neither how normals are drawn nor
- * whether there is a Lambertian term. */
+/* The loops are compiled once for each distribution and each of these groups of settings, so that what is the same for
+ * a whole material is not chosen per element.  Compiling takes long: only GGX, where Fresnel's term weighs, has them
+ * all; the others take PURE for USUAL and METAL, and RARE for MIXED. */
 #define MICROFACET_USUAL     0 /* as PURE, with Schlick's Fresnel and correlated masking */
-#define MICROFACET_PURE      1 /* one lobe: visible normals, exact masking */
-#define MICROFACET_MIXED     2 /* the same over a Lambertian term */
-#define MICROFACET_NDF       3 /* all normals */
-#define MICROFACET_PUBLISHED 4 /* the masking that the paper prints */
-#define MICROFACET_SETTINGS  5
+#define MICROFACET_METAL     1 /* as PURE, of a conductor, whose Fresnel term costs more than all the rest */
+#define MICROFACET_MIXED     2 /* as PURE, over a Lambertian term; no conductor */
+#define MICROFACET_PURE      3 /* one lobe: visible normals, exact masking (GGX: no conductor) */
+#define MICROFACET_NDF       4 /* all normals, exact masking; no conductor */
+#define MICROFACET_PUBLISHED 5 /* all normals, the masking that the paper prints; no conductor */
+#define MICROFACET_RARE      6 /* everything else; chooses as it runs */
+#define MICROFACET_GROUPS    7
 
 KERNEL int microfacet_variant(microfacet_params p)
 {
-    int is_usual = (p.F.kind == FRESNEL_SCHLICK) & (p.g2 == G2_CORRELATED);
-    int one      = is_usual ? MICROFACET_USUAL : MICROFACET_PURE;
-    int visible  = p.has_diffuse ? MICROFACET_MIXED : one;
-    int exact    = p.sampling == SAMPLING_NDF ? MICROFACET_NDF : visible;
-    return MICROFACET_SETTINGS*p.d.kind + (p.d.masking == MASKING_PUBLISHED ? MICROFACET_PUBLISHED : exact);
+    int is_ggx       = p.d.kind == NDF_GGX;
+    int is_metal     = p.F.kind == FRESNEL_CONDUCTOR;
+    int is_published = p.d.masking == MASKING_PUBLISHED;
+    int is_usual     = is_ggx & (p.F.kind == FRESNEL_SCHLICK) & (p.g2 == G2_CORRELATED);
+    int one          = (is_metal & is_ggx) ? MICROFACET_METAL : (is_usual ? MICROFACET_USUAL : MICROFACET_PURE);
+    int all     = is_published & !is_ggx ? MICROFACET_PUBLISHED : (is_published ? MICROFACET_RARE : MICROFACET_NDF);
+    int visible = is_ggx & !is_published ? MICROFACET_MIXED : MICROFACET_RARE;
+    int several = is_metal ? MICROFACET_RARE : (p.sampling == SAMPLING_NDF ? all : visible);
+    return MICROFACET_GROUPS*p.d.kind + (p.is_one ? one : several);
 }
 
 /* p with the fields that are the same throughout a variant set to constants. */
 KERNEL microfacet_params microfacet_fix(microfacet_params p, int variant)
 {
-    int settings        = variant%MICROFACET_SETTINGS;
-    int is_usual        = settings == MICROFACET_USUAL;
-    int is_one          = is_usual | (settings == MICROFACET_PURE);
-    int is_visible      = is_one | (settings == MICROFACET_MIXED);
+    int group           = variant%MICROFACET_GROUPS;
+    int kind            = variant/MICROFACET_GROUPS;
+    int is_usual        = group == MICROFACET_USUAL;
+    int is_metal        = group == MICROFACET_METAL;
+    int is_one          = is_usual | is_metal | (group == MICROFACET_PURE);
+    int is_any          = (group == MICROFACET_RARE) | ((group == MICROFACET_PURE) & (kind != NDF_GGX));
+    int is_rare         = group == MICROFACET_RARE;
+    int is_published    = group == MICROFACET_PUBLISHED;
+    int is_all          = is_published | (group == MICROFACET_NDF);
+    int clear           = p.F.kind == FRESNEL_CONDUCTOR ? FRESNEL_SCHLICK : p.F.kind; /* says that it is none */
+    int other           = is_usual ? FRESNEL_SCHLICK : (is_any ? p.F.kind : clear);
     microfacet_params q = p;
-    q.d.kind            = variant/MICROFACET_SETTINGS;
-    q.d.masking         = settings == MICROFACET_PUBLISHED ? MASKING_PUBLISHED : MASKING_EXACT;
-    q.sampling          = is_visible ? SAMPLING_VNDF : (settings == MICROFACET_NDF ? SAMPLING_NDF : p.sampling);
-    q.F.kind            = is_usual ? FRESNEL_SCHLICK : p.F.kind;
+    q.d.kind            = kind;
+    q.d.masking         = is_rare ? p.d.masking : (is_published ? MASKING_PUBLISHED : MASKING_EXACT);
+    q.sampling          = is_rare ? p.sampling : (is_all ? SAMPLING_NDF : SAMPLING_VNDF);
+    q.F.kind            = is_metal ? FRESNEL_CONDUCTOR : other;
     q.g2                = is_usual ? G2_CORRELATED : p.g2;
-    q.has_diffuse       = is_one ? 0 : (settings == MICROFACET_MIXED ? 1 : p.has_diffuse);
+    q.is_one            = is_one;
+    q.has_diffuse       = is_one ? 0 : (group == MICROFACET_MIXED ? 1 : p.has_diffuse);
     return q;
 }
+
+/* Of the variants, those that microfacet_variant gives. */
+#define EACH_VARIANT_microfacet(CASE, name)                                                                            \
+    CASE(name, 0)                                                                                                      \
+    CASE(name, 1) CASE(name, 2) CASE(name, 3) CASE(name, 4) CASE(name, 6) /* ggx */                                    \
+        CASE(name, 10) CASE(name, 11) CASE(name, 12) CASE(name, 13)       /* beckmann */                               \
+        CASE(name, 17) CASE(name, 18) CASE(name, 19) CASE(name, 20)       /* phong */

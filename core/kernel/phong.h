@@ -41,7 +41,7 @@ KERNEL real phong_D(real3 m, phong_shape shape, real alpha_x, real alpha_y)
 }
 
 /* Near grazing: sum over k of z^k (p + 1/2)_k/(3/2)_k, a hypergeometric series of positive terms. */
-KERNEL real phong_series(real p, real z)
+LARGE_KERNEL real phong_series(real p, real z)
 {
     real sum  = 0;
     real term = 1;
@@ -56,7 +56,7 @@ KERNEL real phong_series(real p, real z)
 /* Away from grazing: Gauss's continued fraction of 2F1(b, 1; b + 3/2; x) from its end, z = 1 - x.  A level is
  * f = 1 - odd x/(1 - even x/f).  For large b, odd and x are near 1 and the difference would lose as many digits as z
  * has zeros: it is written with `rest` = 1 - odd, multiplied out. */
-KERNEL real phong_fraction(real b, real x, real z)
+LARGE_KERNEL real phong_fraction(real b, real x, real z)
 {
     real c = b + 1.5f;
     real f = 1;
@@ -78,7 +78,7 @@ KERNEL real phong_fraction(real b, real x, real z)
  * Where z is small, I_x = 1 - 2 sqrt(z) x^p S/B with the series S; elsewhere, with all terms positive,
  *     Lambda = x^b/(2 pi mu) Int_0^1 sqrt(v) (1 - v)^(b-1)/(z + x v) dv = x^p F/(4 b p sqrt(z) B),
  * with F the continued fraction.  Derivation: docs/models/phong.md. */
-KERNEL real phong_Lambda(real3 v, phong_shape shape, real alpha_x, real alpha_y)
+LARGE_KERNEL real phong_Lambda(real3 v, phong_shape shape, real alpha_x, real alpha_y)
 {
     real mu     = kclamp(stretched_cot(v, alpha_x, alpha_y), COT_SMALLEST, COT_LARGEST);
     real p      = 0.5f*shape.exponent + 1;

@@ -17,11 +17,18 @@
  * that is left in a loop keeps the loop from vectorising. */
 #define KERNEL static inline __attribute__((unused, always_inline))
 
-/* Before a loop of constant length in a kernel: left as a loop, it keeps clang from vectorising the one around. */
+/* In files of loops over batches (batch_text.h sets FACET_LOOPS) a large kernel is inlined too, and its loops of constant
+ * length are unrolled: left as loops, they keep the one around from vectorising.  Elsewhere one copy will do. */
+#ifdef FACET_LOOPS
+#define LARGE_KERNEL KERNEL
 #if defined(__clang__)
 #define UNROLL _Pragma("clang loop unroll(full)")
 #else
 #define UNROLL _Pragma("GCC unroll 127")
+#endif
+#else
+#define LARGE_KERNEL static __attribute__((unused, noinline))
+#define UNROLL
 #endif
 
 #if FACET_REAL_IS_DOUBLE

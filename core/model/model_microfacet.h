@@ -6,6 +6,7 @@
 #pragma once
 
 #include "../kernel/microfacet.h"
+#include "../metals.h"
 #include "read_material.h"
 
 #ifdef FACET_PARAMETERS
@@ -13,8 +14,13 @@
 #define MICROFACET_PARAMETERS(SAMPLING_CHOICES, SAMPLING_LAST)                                                         \
     {"kd", FACET_COLOUR, 0, 1, {0, 0, 0}, "1", "", "Lambertian term that is added"},                                   \
         {"ks", FACET_COLOUR, 0, 1, {1, 1, 1}, "1", "", "reflectance at normal incidence (Schlick's Fresnel)"},         \
+        {"f82", FACET_COLOUR, 0, 1, {1, 1, 1}, "1", "", "tint of that Fresnel term at 82 degrees, with ks"},           \
         {"ior",       FACET_NUMBER, 0.1, 10,                                                                           \
          {1.5, 0, 0}, "1",          "",  "index of refraction (exact dielectric Fresnel), not with ks"},               \
+        {"metal",   FACET_CHOICE, 0,           METALS - 1,                                                             \
+         {0, 0, 0}, "1",          METAL_NAMES, "a metal's measured indices (exact Fresnel), not with ks or ior"},      \
+        {"eta", FACET_COLOUR, 0.01, 20, {1, 1, 1}, "1", "", "a conductor's index of refraction is eta + i k"},         \
+        {"k", FACET_COLOUR, 0, 20, {0, 0, 0}, "1", "", "its imaginary part, with eta"},                                \
         {"g2", FACET_CHOICE, 0, 1, {0, 0, 0}, "1", "correlated|separable", "masking-shadowing: 1/(1+Li+Lo) or G1 G1"}, \
         {"masking",                                                                                                    \
          FACET_CHOICE,                                                                                                 \
@@ -37,11 +43,32 @@
 #endif
 
 #ifdef FACET_PREPARE
+static inline real3 prepare_index(const double rgb[3])
+{
+    return make3((real)rgb[0], (real)rgb[1], (real)rgb[2]);
+}
+
+/* Schlick's term of ks, unless what selects another is given. */
 static inline fresnel prepare_fresnel(const facet_material *m)
 {
-    return (fresnel){.kind = facet_material_given(m, "ior") ? FRESNEL_DIELECTRIC : FRESNEL_SCHLICK,
-                     .F0 = prepare_colour(m, "ks"),
-                     .eta = prepare_number(m, "ior")};
+    const metal *named = &metals[prepare_choice(m, "metal")];
+    fresnel F = {.kind = FRESNEL_SCHLICK, .F0 = prepare_colour(m, "ks"), .eta = splat3(1)};
+    if (facet_material_given(m, "metal")) {
+        F.kind = FRESNEL_CONDUCTOR;
+        F.eta = prepare_index(named->eta);
+        F.k = prepare_index(named->k);
+    } else if (facet_material_given(m, "eta")) {
+        F.kind = FRESNEL_CONDUCTOR;
+        F.eta = prepare_colour(m, "eta");
+        F.k = prepare_colour(m, "k");
+    } else if (facet_material_given(m, "ior")) {
+        F.kind = FRESNEL_DIELECTRIC;
+        F.eta = splat3(prepare_number(m, "ior"));
+    } else if (facet_material_given(m, "f82")) {
+        F.kind = FRESNEL_F82;
+        F.dip = fresnel_f82_strength(F.F0, prepare_colour(m, "f82"));
+    }
+    return F;
 }
 
 /* Everything but the distribution's own shape.  The lobe is chosen as [cs500, SampleBrdf] says, by
@@ -56,6 +83,7 @@ static inline microfacet_params microfacet_prepare(const facet_material *m, int 
     const real kd = length3(p.kd);
     const real ks = length3(fresnel_reflectance(p.F, 1));
     p.has_diffuse = kd > 0;
+    p.is_one = p.sampling == SAMPLING_VNDF && p.d.masking == MASKING_EXACT && !p.has_diffuse;
     p.p_diffuse = kd > 0 ? kmin(kd/(kd + ks), 0.875f) : (real)0;
     return p;
 }

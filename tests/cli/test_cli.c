@@ -61,7 +61,7 @@ static const struct {
     {"eval", "--wi --wo --csv --double --help"},
     {"sample", "--wo --count --seed --double --help -n"},
     {"terms", "--csv --double --help"},
-    {"albedo", "--cos --phi --help"},
+    {"albedo", "--cos --phi --inside --average --help"},
     {"materials", "--json --help"},
     {"scenes", "--help"},
     {"info", "--json --help"},

@@ -278,19 +278,19 @@ static void samples_are_the_librarys_and_repeat_by_seed(void **state)
 static void albedo_of_known_materials(void **state)
 {
     (void)state;
-    double got[5];
+    double got[8];
     program_run run = RUN("albedo", "lambert kd=.1,.5,.9", "--cos", "1,.5,.01");
     for (size_t row = 1; row <= 3; row++) {
-        csv_row(run.out, row, got, 5);
+        csv_row(run.out, row, got, 8);
         /* Nine digits are printed. */
         assert_true(fabs(got[1] - .1) < 1e-9 && fabs(got[2] - .5) < 1e-9 && fabs(got[3] - .9) < 1e-9);
-        assert_true(got[4] < 1e-8);
+        assert_true(got[4] == 0 && got[7] < 1e-6);
     }
     program_run_free(&run);
 
     /* Against the mean weight of 200000 samples: 5 standard errors of weights within [0,1]. */
     run = RUN("albedo", "ggx alpha_x=.1 alpha_y=.5", "--cos", ".3", "--phi", "90");
-    csv_row(run.out, 1, got, 5);
+    csv_row(run.out, 1, got, 8);
     const facet_bsdf64 bsdf = prepare64("ggx alpha_x=.1 alpha_y=.5");
     const double wo[3] = {0, sqrt(1 - .09), .3};
     double sum = 0, sum2 = 0;
@@ -305,10 +305,21 @@ static void albedo_of_known_materials(void **state)
     if (!(fabs(got[2] - mean) < 5*sigma)) fail_msg("albedo %.9g, sampled %.9g +- %.2g", got[2], mean, sigma);
     program_run_free(&run);
 
-    /* Glass: F + (1 - F)/ior^2, radiance being compressed inside; F at normal incidence is 0.04. */
+    /* Glass: F, and (1 - F)/ior^2, radiance being compressed inside; F at normal incidence is 0.04. */
     run = RUN("albedo", "glass ior=1.5", "--cos", "1");
-    csv_row(run.out, 1, got, 5);
-    assert_true(fabs(got[1] - (.04 + .96/2.25)) < 1e-9);
+    csv_row(run.out, 1, got, 8);
+    assert_true(fabs(got[1] - .04) < 1e-9 && fabs(got[4] - .96/2.25) < 1e-9);
+    program_run_free(&run);
+
+    /* From inside, and the average over all views: ten digits of an independent program. */
+    run = RUN("albedo", "glass ior=1.5", "--cos", "1,.5", "--inside", "--average");
+    csv_row(run.out, 1, got, 8);
+    assert_true(fabs(got[1] - .04) < 1e-9 && fabs(got[4] - .96*2.25) < 1e-8);
+    csv_row(run.out, 2, got, 8);
+    assert_true(got[1] == 1 && got[4] == 0);
+    const char *const average = strstr(run.out, "\naverage,");
+    assert_non_null(average);
+    assert_true(fabs(strtod(average + strlen("\naverage,"), NULL) - .596345760) < 1e-6);
     program_run_free(&run);
 }
 

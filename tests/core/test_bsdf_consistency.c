@@ -29,6 +29,9 @@ static const char *const specs[] = {
     "ggx alpha=.5 g2=separable masking=published",
     "ggx alpha_x=.4 alpha_y=.1 ior=1.5",
     "ggx alpha=.3 sampling=ndf kd=.5 ior=.7",
+    "ggx alpha_x=.1 alpha_y=.3 metal=Au",
+    "beckmann alpha=.3 eta=.3,1,2 k=2,.1,.5 kd=.2 sampling=ndf g2=separable",
+    "ggx alpha=.5 ks=.9,.6,.3 f82=.2,.8,1",
     "metallic_roughness roughness=.3",
     "metallic_roughness roughness=.7 metallic=.5 base_color=.9,.5,.1 specular=.5 specular_color=1,.2,.3",
     "metallic_roughness roughness=.5 diffuse=burley",
@@ -81,8 +84,8 @@ static void density_and_weights(const any_bsdf *bsdf, const double wi[3], const 
 }
 
 /* eval/pdf at the returned wi.  A sample may hold the density of the normal that it drew, while its wi is rounded: a
- * component of wi is off by 3 eps at most (a product, a difference of numbers up to 2, a quotient), so that the
- * values may differ by what such steps along each axis change, besides 5 eps of their own arithmetic. */
+ * component of wi is off by 3 eps at most (a product, a difference of numbers up to 2, a quotient), so that the values may
+ * differ by what such steps along each axis change, besides 5 eps of their own arithmetic. */
 static void check_weight(const any_bsdf *bsdf, const double wo[3], const double u[3])
 {
     const facet_sample64 s = any_sample(bsdf, wo, u);

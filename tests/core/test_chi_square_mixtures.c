@@ -17,6 +17,8 @@ static const sampler_case cases[] = {
     {"ggx alpha_x=.1 alpha_y=.6 sampling=ndf", .4, 3},
     {"ggx alpha=.2 kd=.5 ks=.3,.5,.7", .5, 4},
     {"ggx alpha=.4 kd=.2 ior=1.5 sampling=ndf", .3, 5},
+    {"ggx alpha=.3 kd=.5,.4,.3 metal=Cu", .4, 6},
+    {"ggx alpha=.5 kd=.5 ks=.2 f82=.1 g2=separable", .6, 7},
     {"metallic_roughness roughness=.3", .8, 1},
     {"metallic_roughness roughness=.6 diffuse=burley", .2, 2},
     {"metallic_roughness metallic=1 roughness=.7", .5, 3},

@@ -58,6 +58,11 @@ static void values_are_read(void **state)
     check_values("glass wall=thin", "wall", 1, 0, 0);
     check_values("phong exponent=1e6", "exponent", 1e6, 0, 0);
     check_values("ggx alpha_y=.2 alpha_x=.4", "alpha_x", .4, 0, 0);
+    check_values("ggx metal=Ag", "metal", 0, 0, 0);
+    check_values("beckmann kd=.1 metal=Ti", "metal", 8, 0, 0);
+    check_values("ggx k=2,3,4 eta=.1,.2,.3", "k", 2, 3, 4);
+    check_values("ggx k=2,3,4 eta=.1,.2,.3", "eta", .1, .2, .3);
+    check_values("phong ks=.5 f82=.9,.8,.7", "f82", .9, .8, .7);
 }
 
 typedef struct refusal {
@@ -110,6 +115,25 @@ static const refusal refusals[] = {
     {"phong exponent=3 alpha_x=.3", FACET_BAD_VALUE, "alpha_x", "'exponent'"},
     {"ggx ks=.5 ior=1.5", FACET_BAD_VALUE, "ior", "'ks'"},
     {"beckmann ior=1.5 ks=.5", FACET_BAD_VALUE, "ks", "'ior'"},
+    {"ggx metal=Pb", FACET_UNKNOWN_NAME, "metal", "Ag|Al|Au|Co|Cr|Cu|Fe|Ni|Ti"},
+    {"ggx metal=au", FACET_UNKNOWN_NAME, "metal", "'au' is not a choice"},
+    {"ggx metal=Au ks=.5", FACET_BAD_VALUE, "ks", "'metal' is given as well"},
+    {"ggx ior=1.5 metal=Au", FACET_BAD_VALUE, "metal", "'ior'"},
+    {"ggx metal=Au f82=.5", FACET_BAD_VALUE, "f82", "'metal'"},
+    {"ggx metal=Au eta=.2 k=3", FACET_BAD_VALUE, "eta", "'metal'"},
+    {"ggx k=3 metal=Au", FACET_BAD_VALUE, "metal", "'k'"},
+    {"phong eta=.2 k=3 ks=.5", FACET_BAD_VALUE, "ks", "'eta'"},
+    {"ggx eta=.2 ior=1.5 k=3", FACET_BAD_VALUE, "ior", "'eta'"},
+    {"ggx f82=.5 eta=.2 k=3", FACET_BAD_VALUE, "eta", "'f82'"},
+    {"ggx f82=.5 k=3", FACET_BAD_VALUE, "k", "'f82'"},
+    {"ggx ior=2 f82=.5", FACET_BAD_VALUE, "f82", "'ior'"},
+    {"ggx ks=.5 k=3", FACET_BAD_VALUE, "k", "'ks'"},
+    {"ggx ior=2 k=3", FACET_BAD_VALUE, "k", "'ior'"},
+    {"ggx eta=.2,.3,.4", FACET_BAD_VALUE, "eta", "'k' is missing; give both"},
+    {"beckmann k=3", FACET_BAD_VALUE, "k", "'eta' is missing; give both"},
+    {"ggx eta=.009 k=3", FACET_BAD_VALUE, "eta", "[0.01, 20]"},
+    {"ggx eta=1 k=20.1", FACET_BAD_VALUE, "k", "[0, 20]"},
+    {"ggx ks=.5 f82=1.5", FACET_BAD_VALUE, "f82", "[0, 1]"},
 };
 
 static void faults_are_refused_where_they_are(void **state)
@@ -223,6 +247,10 @@ static void foreign_structs_are_refused(void **state)
     m.values[0][0] = NAN;
     assert_int_equal(facet_bsdf_prepare(&m, &bsdf, &why), FACET_BAD_VALUE);
     assert_string_equal(why.place, facet_model_get(m.model)->parameters[0].name);
+    m = parsed("ggx"); /* half of a conductor's index, set without the text form */
+    assert_int_equal(facet_material_set(&m, "eta", (double[]){.2, .4, 1.4}, 3, &why), FACET_OK);
+    assert_int_equal(facet_bsdf_prepare(&m, &bsdf, &why), FACET_BAD_VALUE);
+    assert_string_equal(why.place, "eta");
     assert_int_equal(facet_bsdf_prepare(NULL, &bsdf, &why), FACET_BAD_ARGUMENT);
     m = parsed("ggx");
     assert_int_equal(facet_bsdf_prepare(&m, NULL, &why), FACET_BAD_ARGUMENT);
@@ -262,6 +290,8 @@ static void check_parameter(const facet_model_info *model, size_t i)
         facet_error why = {0};
         assert_int_equal(facet_material_defaults(model->name, &m, &why), FACET_OK);
         const double value = end ? p->high : p->low;
+        const char *const partner = strcmp(p->name, "eta") == 0 ? "k" : strcmp(p->name, "k") == 0 ? "eta" : NULL;
+        if (partner) assert_int_equal(facet_material_set(&m, partner, (double[]){1}, 1, &why), FACET_OK);
         if (facet_material_set(&m, p->name, &value, 1, &why) || facet_bsdf_prepare(&m, &bsdf, &why))
             fail_msg("%s %s=%g: %s", model->name, p->name, value, why.text);
     }
