@@ -31,6 +31,7 @@ static inline microfacet_params phong_prepare(const facet_material *m)
     const real half_n = 0.5f*exponent + 1;
     p.d.phong = (phong_shape){.exponent = exponent, .beta_inverse = half_n*kgamma_half_ratio(half_n)*INV_SQRT_PI};
     p.sampling = SAMPLING_NDF;
+    p.is_one = 0;
     return p;
 }
 #endif
