@@ -32,6 +32,7 @@ static const char *const specs[] = {
     "ggx alpha=.2 ior=1.5 kd=.5",
     "metallic_roughness roughness=.4",
     "glass",
+    "ward alpha=.2",
 };
 
 static double seconds(void)

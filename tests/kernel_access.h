@@ -22,6 +22,15 @@ typedef struct kernel_access {
     double (*D)(kernel_distribution which, double shape_x, double shape_y, const double m[3]);
     /* A normal (a direction for the cosine lobe) of the whole distribution. */
     void (*sample_ndf)(kernel_distribution which, double shape_x, double shape_y, double ux, double uy, double m[3]);
+    /* Student's distribution of slopes with n + 2 degrees of freedom: P(|slope| > q) and Lambda(q), q > 0. */
+    double (*slope_tail)(double exponent, double q);
+    double (*slope_Lambda)(double exponent, double q);
+    /* Phong's slope towards a viewer of cotangent mu, and across over sqrt(1 + slope^2); Beckmann's for alpha = 1. */
+    double (*phong_slope_along)(double exponent, double mu, double u);
+    double (*phong_slope_across)(double exponent, double u);
+    double (*beckmann_slope_along)(double mu, double u);
+    /* Masking and shadowing together, height-correlated. */
+    double (*ggx_G2)(double alpha_x, double alpha_y, const double wi[3], const double wo[3]);
     double (*fresnel_dielectric)(double c, double eta);
     /* Schlick's approximation with the dielectric's reflectance at normal incidence. */
     double (*fresnel_schlick)(double c, double eta);

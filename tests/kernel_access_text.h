@@ -6,6 +6,7 @@
 #include "core/kernel/bsdf.h"
 #include "core/kernel/distribution.h"
 #include "core/kernel/fresnel.h"
+#include "core/kernel/microfacet.h"
 
 static double density(kernel_distribution which, double shape_x, double shape_y, const double m[3])
 {
@@ -34,6 +35,49 @@ static void sample_ndf(kernel_distribution which, double shape_x, double shape_y
     m[0] = (double)n.x;
     m[1] = (double)n.y;
     m[2] = (double)n.z;
+}
+
+static student slopes_along(double exponent)
+{
+    return student_of((real)exponent/2 + 1);
+}
+
+static double slope_tail(double exponent, double q)
+{
+    const student s = slopes_along(exponent);
+    return (double)student_tail(s, student_at(s, (real)q));
+}
+
+static double slope_Lambda(double exponent, double q)
+{
+    const student s = slopes_along(exponent);
+    return (double)student_Lambda(s, student_at(s, (real)q));
+}
+
+static double phong_slope_along(double exponent, double mu, double u)
+{
+    return (double)student_visible_slope(slopes_along(exponent), (real)mu, (real)u);
+}
+
+static double phong_slope_across(double exponent, double u)
+{
+    const student along = slopes_along(exponent);
+    const phong_shape shape = {.exponent = (real)exponent, .beta_inverse = along.beta_inverse};
+    return (double)student_quantile(phong_slopes_across(shape), (real)u);
+}
+
+static double beckmann_slope_along(double mu, double u)
+{
+    return (double)beckmann_visible_slope((real)mu, (real)u);
+}
+
+static double joint_G2(double alpha_x, double alpha_y, const double wi[3], const double wo[3])
+{
+    const real x = (real)alpha_x, y = (real)alpha_y;
+    const real3 i = make3((real)wi[0], (real)wi[1], (real)wi[2]), o = make3((real)wo[0], (real)wo[1], (real)wo[2]);
+    const distribution d = {.kind = NDF_GGX, .masking = MASKING_EXACT, .alpha_x = x, .alpha_y = y};
+    return (double)(i.z*o.z/
+                    smith_rest(i.z, o.z, distribution_sigma(d, i), distribution_sigma(d, o), G2_CORRELATED));
 }
 
 static double dielectric(double c, double eta)
@@ -87,6 +131,12 @@ const kernel_access ACCESS = {
     .epsilon = (double)REAL_EPSILON,
     .D = density,
     .sample_ndf = sample_ndf,
+    .slope_tail = slope_tail,
+    .slope_Lambda = slope_Lambda,
+    .phong_slope_along = phong_slope_along,
+    .phong_slope_across = phong_slope_across,
+    .beckmann_slope_along = beckmann_slope_along,
+    .ggx_G2 = joint_G2,
     .fresnel_dielectric = dielectric,
     .fresnel_schlick = schlick,
     .fresnel_conductor = conductor,

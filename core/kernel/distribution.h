@@ -81,5 +81,5 @@ KERNEL real3 distribution_sample_vndf(distribution d, real3 wo, real ux, real uy
 {
     return select3(d.kind == NDF_GGX, ggx_sample_vndf(wo, ux, uy, d.alpha_x, d.alpha_y),
                    select3(d.kind == NDF_BECKMANN, beckmann_sample_vndf(wo, ux, uy, d.alpha_x, d.alpha_y),
-                           phong_sample_ndf(ux, uy, d.phong, d.alpha_x, d.alpha_y)));
+                           phong_sample_vndf(wo, ux, uy, d.phong, d.alpha_x, d.alpha_y)));
 }

@@ -49,3 +49,37 @@ KERNEL real cos2_of(real3 m)
     real len2 = kmax(dot3(m, m), REAL_MIN);
     return kmax(m.z*m.z/len2, COS_SMALLEST*COS_SMALLEST);
 }
+
+/* A view after the slopes are divided by (alpha_x, alpha_y): its azimuth, and its cotangent in [COT_SMALLEST,
+ * COT_LARGEST]. */
+typedef struct stretched_view {
+    real cot, cos_phi, sin_phi;
+} stretched_view;
+
+KERNEL stretched_view stretched_view_of(real3 wo, real alpha_x, real alpha_y)
+{
+    real sin     = stretched_sin(wo, alpha_x, alpha_y);
+    int has_side = sin > REAL_MIN;
+    real inv     = 1/(has_side ? sin : (real)1);
+    stretched_view v;
+    v.cot     = has_side ? kclamp(kabs(wo.z)*inv, COT_SMALLEST, COT_LARGEST) : COT_LARGEST;
+    v.cos_phi = has_side ? alpha_x*wo.x*inv : (real)1;
+    v.sin_phi = has_side ? alpha_y*wo.y*inv : (real)0;
+    return v;
+}
+
+/* The normal with a slope towards the view and one across it, unstretched.  Slopes are -m.x/m.z: a normal that leans
+ * towards the viewer has a positive one with m.x along wo. */
+KERNEL real3 normal_of_slopes(stretched_view v, real towards, real across, real alpha_x, real alpha_y)
+{
+    real x = v.cos_phi*towards - v.sin_phi*across;
+    real y = v.sin_phi*towards + v.cos_phi*across;
+    return make3(alpha_x*x, alpha_y*y, 1);
+}
+
+/* One step of Halley's method for the decreasing f(q) = excess, with f' = -density < 0 and f''/f' = curvature. */
+KERNEL real halley_step(real excess, real density, real curvature)
+{
+    real newton = excess/kmax(density, REAL_MIN);
+    return newton/kmax(1 + 0.5f*newton*curvature, 0.5f);
+}

@@ -9,7 +9,7 @@ static const facet_parameter phong_parameters[] = {
     {"exponent", FACET_NUMBER, 0, 1e6, {50, 0, 0}, "1", "", "n in D = (n + 2)/(2 pi) cos^n"},
     {"alpha_x", FACET_NUMBER, 1e-3, 1, {0.2, 0, 0}, "1", "", "roughness sqrt(2/(n + 2)) along x, not with exponent"},
     {"alpha_y", FACET_NUMBER, 1e-3, 1, {0.2, 0, 0}, "1", "", "roughness sqrt(2/(n + 2)) along y, not with exponent"},
-    MICROFACET_PARAMETERS("ndf", 0),
+    MICROFACET_PARAMETERS("vndf|ndf", 1),
 };
 #endif
 
@@ -30,8 +30,6 @@ static inline microfacet_params phong_prepare(const facet_material *m)
     }
     const real half_n = 0.5f*exponent + 1;
     p.d.phong = (phong_shape){.exponent = exponent, .beta_inverse = half_n*kgamma_half_ratio(half_n)*INV_SQRT_PI};
-    p.sampling = SAMPLING_NDF;
-    p.is_one = 0;
     return p;
 }
 #endif

@@ -27,6 +27,7 @@ static const recorded materials[] = {
     {"phong exponent=50 kd=.2", UINT64_C(0x9c0e7a6acd2d1a6b)},
     {"phong alpha_x=.1 alpha_y=.7 masking=published g2=separable", UINT64_C(0x069bd74dfd2fae5a)},
     {"beckmann alpha=.2", UINT64_C(0xe59026578a26e168)},
+    {"phong exponent=50 sampling=ndf", UINT64_C(0x807d15f5c9dc7ad9)},
     {"beckmann alpha_x=.6 alpha_y=.1 kd=.3 sampling=ndf", UINT64_C(0x77f27814501be272)},
     {"ggx alpha=.2", UINT64_C(0x3749994de57bd218)},
     {"ggx alpha_x=.1 alpha_y=.4 ior=1.5 kd=.5", UINT64_C(0x69c8f9fe2dad58bb)},
@@ -36,6 +37,9 @@ static const recorded materials[] = {
     {"glass tint=.9,.8,.7", UINT64_C(0x35848d99a3d22cd5)},
     {"metallic_roughness roughness=.6 diffuse=burley", UINT64_C(0x12962bcfc1d26571)},
     {"metallic_roughness roughness=.4 metallic=.3", UINT64_C(0x043dfe8d0e4b6a02)},
+    {"ward alpha=.3 kd=.2 ks=.5", UINT64_C(0xe6c6e1eb355fc7cf)},
+    {"ward alpha_x=.1 alpha_y=.5 variant=duer", UINT64_C(0x55ac4bcaa2a85fb5)},
+    {"ward alpha=.2 variant=ward92 sampling=ndf", UINT64_C(0x54a79edf0f9e6dcf)},
 };
 enum { N_MATERIALS = sizeof materials/sizeof materials[0] };
 

@@ -20,6 +20,7 @@ static const char *const specs[] = {
     "phong exponent=50 g2=separable",
     "phong alpha_x=.1 alpha_y=.4 kd=.3",
     "phong exponent=20 masking=published",
+    "phong exponent=20 sampling=ndf",
     "beckmann alpha=.05",
     "beckmann alpha=.6 g2=separable",
     "beckmann alpha_x=.1 alpha_y=.5 masking=published",
@@ -35,6 +36,10 @@ static const char *const specs[] = {
     "metallic_roughness roughness=.3",
     "metallic_roughness roughness=.7 metallic=.5 base_color=.9,.5,.1 specular=.5 specular_color=1,.2,.3",
     "metallic_roughness roughness=.5 diffuse=burley",
+    "ward alpha=.3",
+    "ward alpha_x=.1 alpha_y=.4 variant=duer kd=.5 ks=.2,.4,.6",
+    "ward alpha=.2 variant=ward92 sampling=ndf",
+    "ward alpha=.2 ks=0 kd=.5",
 };
 enum { N_SPECS = sizeof specs/sizeof specs[0], N_DRAWS = 2000 };
 
@@ -185,6 +190,9 @@ static void visible_normals_never_weigh_more_than_one(void **state)
                                         "ggx alpha=.3",
                                         "ggx alpha=4",
                                         "ggx alpha=1 g2=separable",
+                                        "phong exponent=0",
+                                        "phong exponent=1e6 g2=separable",
+                                        "phong alpha_x=.9 alpha_y=.01",
                                         "beckmann alpha=1e-4",
                                         "beckmann alpha=.5",
                                         "beckmann alpha_x=4 alpha_y=.01 g2=separable"};

@@ -18,6 +18,7 @@ static const char *const specs[] = {
     "phong exponent=0",
     "phong exponent=1e6",
     "phong exponent=50 masking=published kd=.5",
+    "phong exponent=1e6 sampling=ndf",
     "phong alpha_x=1e-3 alpha_y=1",
     "phong alpha_x=1 alpha_y=1 ior=.1",
     "beckmann alpha=1e-4",
@@ -38,6 +39,12 @@ static const char *const specs[] = {
     "metallic_roughness roughness=1 metallic=1 base_color=0",
     "metallic_roughness roughness=0 metallic=0 specular=0 base_color=1",
     "metallic_roughness roughness=1 diffuse=burley base_color=1",
+    "ward alpha=1e-4",
+    "ward alpha_x=1e-4 alpha_y=1 variant=duer",
+    "ward alpha=1 variant=duer sampling=ndf kd=1",
+    "ward alpha_x=1 alpha_y=1e-4 variant=ward92",
+    "ward alpha=1 ks=0 kd=1",
+    "ward alpha=.5 ks=0 kd=0",
     "glass",
     "glass ior=.1 tint=0",
     "glass ior=10 wall=thin",
@@ -110,7 +117,7 @@ static void eval_and_pdf_are_finite(void **state)
 static void densities_of_reflected_normals_are_bounded(void **state)
 {
     (void)state;
-    static const char *const all_normals[] = {"phong exponent=1e6", "ggx alpha=1e-4 sampling=ndf",
+    static const char *const all_normals[] = {"phong exponent=1e6 sampling=ndf", "ggx alpha=1e-4 sampling=ndf",
                                               "beckmann alpha=.01 sampling=ndf"};
     for (int s = 0; s < 3; s++)
         for (int is_double = 0; is_double < 2; is_double++) {

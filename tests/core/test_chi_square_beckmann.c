@@ -12,6 +12,7 @@
 
 static const sampler_case cases[] = {
     {"beckmann alpha=.5", .05, 2},
+    {"beckmann alpha=.3", .00175, 1},
     {"beckmann alpha_x=.9 alpha_y=.1", .3, 3},
     {"beckmann alpha_x=.1 alpha_y=.4 sampling=ndf", .5, 4},
 };

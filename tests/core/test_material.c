@@ -108,7 +108,7 @@ static const refusal refusals[] = {
     {"ggx g2=1", FACET_UNKNOWN_NAME, "g2", "correlated|separable"},
     {"ggx g2=", FACET_UNKNOWN_NAME, "g2", "correlated|separable"},
     {"ggx g2=separ", FACET_UNKNOWN_NAME, "g2", "separable"},
-    {"phong sampling=vndf", FACET_UNKNOWN_NAME, "sampling", "ndf"},
+    {"phong sampling=all", FACET_UNKNOWN_NAME, "sampling", "vndf|ndf"},
     {"ggx alpha=.3 alpha=.3", FACET_BAD_SYNTAX, "alpha", "twice"},
     {"ggx alpha=.3 alpha_x=.3", FACET_BAD_VALUE, "alpha_x", "'alpha'"},
     {"ggx alpha_y=.3 alpha=.3", FACET_BAD_VALUE, "alpha", "'alpha_y'"},
