@@ -31,6 +31,9 @@ static const char *const specs[] = {
     "ggx alpha=.2 sampling=ndf",
     "ggx alpha=.2 ior=1.5 kd=.5",
     "metallic_roughness roughness=.4",
+    "disney roughness=.4",
+    "disney roughness=.4 clearcoat=1",
+    "disney clearcoat=1 coat_masking=exact",
     "glass",
     "ward alpha=.2",
 };

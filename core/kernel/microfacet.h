@@ -211,6 +211,7 @@ KERNEL microfacet_params microfacet_fix(microfacet_params p, int variant)
 #define EACH_VARIANT_microfacet(CASE, name)                                                                            \
     CASE(name, 0)                                                                                                      \
     CASE(name, 1)                                                                                                      \
-    CASE(name, 2) CASE(name, 3) CASE(name, 4) CASE(name, 6)         /* ggx */                                          \
+    CASE(name, 2)                                                                                                      \
+    CASE(name, 3) CASE(name, 4) CASE(name, 6)                       /* ggx */                                          \
         CASE(name, 10) CASE(name, 11) CASE(name, 12) CASE(name, 13) /* beckmann */                                     \
         CASE(name, 17) CASE(name, 18) CASE(name, 19) CASE(name, 20) /* phong */

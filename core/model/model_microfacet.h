@@ -51,9 +51,9 @@ static inline real3 prepare_index(const double rgb[3])
 /* Schlick's term of ks, unless what selects another is given. */
 static inline fresnel prepare_fresnel(const facet_material *m)
 {
-    const metal *named = &metals[prepare_choice(m, "metal")];
     fresnel F = {.kind = FRESNEL_SCHLICK, .F0 = prepare_colour(m, "ks"), .eta = splat3(1)};
     if (facet_material_given(m, "metal")) {
+        const metal *named = &metals[prepare_choice(m, "metal")];
         F.kind = FRESNEL_CONDUCTOR;
         F.eta = prepare_index(named->eta);
         F.k = prepare_index(named->k);

@@ -14,6 +14,12 @@ static const facet_parameter phong_parameters[] = {
 #endif
 
 #ifdef FACET_PREPARE
+static inline phong_shape prepare_phong_shape(real exponent)
+{
+    const real half_n = 0.5f*exponent + 1;
+    return (phong_shape){.exponent = exponent, .beta_inverse = half_n*kgamma_half_ratio(half_n)*INV_SQRT_PI};
+}
+
 /* Different roughness along x and y: the exponent is that of their geometric mean, and the slopes are
  * stretched by the ratio to it. */
 static inline microfacet_params phong_prepare(const facet_material *m)
@@ -28,8 +34,7 @@ static inline microfacet_params phong_prepare(const facet_material *m)
         p.d.alpha_x = alpha_x/mean;
         p.d.alpha_y = alpha_y/mean;
     }
-    const real half_n = 0.5f*exponent + 1;
-    p.d.phong = (phong_shape){.exponent = exponent, .beta_inverse = half_n*kgamma_half_ratio(half_n)*INV_SQRT_PI};
+    p.d.phong = prepare_phong_shape(exponent);
     return p;
 }
 #endif

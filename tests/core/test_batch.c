@@ -40,6 +40,11 @@ static const recorded materials[] = {
     {"ward alpha=.3 kd=.2 ks=.5", UINT64_C(0xe6c6e1eb355fc7cf)},
     {"ward alpha_x=.1 alpha_y=.5 variant=duer", UINT64_C(0x55ac4bcaa2a85fb5)},
     {"ward alpha=.2 variant=ward92 sampling=ndf", UINT64_C(0x54a79edf0f9e6dcf)},
+    {"cs500 ndf=phong kd=.3 ks=.1", UINT64_C(0x924d37ad5814a465)},
+    {"disney base_color=.8,.3,.1 roughness=.4 subsurface=.3 sheen=.5", UINT64_C(0x5a0822b10d3ee511)},
+    {"disney metallic=.5 anisotropic=.7 g2=correlated", UINT64_C(0xca7fff0a7bb8abc8)},
+    {"disney base_color=.8,.3,.1 roughness=.4 clearcoat=1", UINT64_C(0x97cfe693a8e7104d)},
+    {"disney metallic=.5 anisotropic=.7 clearcoat=.5 coat_masking=exact g2=correlated", UINT64_C(0xc61844a054b4fd00)},
 };
 enum { N_MATERIALS = sizeof materials/sizeof materials[0] };
 

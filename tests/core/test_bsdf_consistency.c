@@ -40,6 +40,10 @@ static const char *const specs[] = {
     "ward alpha_x=.1 alpha_y=.4 variant=duer kd=.5 ks=.2,.4,.6",
     "ward alpha=.2 variant=ward92 sampling=ndf",
     "ward alpha=.2 ks=0 kd=.5",
+    "cs500 kd=.5 ks=0",
+    "cs500 ndf=phong exponent=12 kd=.5 ior=1.5",
+    "disney roughness=.3 subsurface=.5 sheen=1 specular_tint=1 clearcoat=1 clearcoat_gloss=.5",
+    "disney metallic=.5 anisotropic=.8 clearcoat=.5 clearcoat_gloss=0 coat_masking=exact g2=correlated",
 };
 enum { N_SPECS = sizeof specs/sizeof specs[0], N_DRAWS = 2000 };
 

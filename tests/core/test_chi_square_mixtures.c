@@ -19,6 +19,8 @@ static const sampler_case cases[] = {
     {"ggx alpha=.4 kd=.2 ior=1.5 sampling=ndf", .3, 5},
     {"ggx alpha=.3 kd=.5,.4,.3 metal=Cu", .4, 6},
     {"ggx alpha=.5 kd=.5 ks=.2 f82=.1 g2=separable", .6, 7},
+    {"cs500 ndf=phong exponent=5 kd=.2 ks=.5", .3, 6},
+    {"cs500 ndf=beckmann alpha=.3 kd=.8 ks=.04", .7, 2},
     {"metallic_roughness roughness=.3", .8, 1},
     {"metallic_roughness roughness=.6 diffuse=burley", .2, 2},
     {"metallic_roughness metallic=1 roughness=.7", .5, 3},
