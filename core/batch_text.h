@@ -98,12 +98,17 @@ static inline real3 gather(facet_dirs d, size_t i)
         name##_pdf_each(name##_fix(p->of.name, v), n, wi, wo, pdf);                                                    \
         break;
 #define EVAL_PDF_CASE(name, v)                                                                                         \
-    case v:                                                                                                            \
-        name##_eval_pdf_each(name##_fix(p->of.name, v), n, wi, wo, f, pdf);                                            \
-        break;
+    case v: name##_eval_pdf_each(name##_fix(p->of.name, v), n, wi, wo, f, pdf); break;
+/* gtr, one of the distributions of the kernel microfacet, has a loop of its own. */
 #define SAMPLE_CASE(name, v)                                                                                           \
-    case v: name##_sample_each(name##_fix(p->of.name, v), n, wo, u, s); break;
+    case v:                                                                                                            \
+        _Generic(p->of.name, microfacet_params                                                                         \
+                 : microfacet_sample_staged, default                                                                   \
+                 : name##_sample_each)(name##_fix(p->of.name, v), n, wo, u, s);                                        \
+        break;
+KERNEL void microfacet_sample_staged(microfacet_params p, size_t n, facet_dirs wo, facet_dirs u, facet_samples s);
 FACET_KERNELS(LOOP_ROWS)
+#include "batch_staged.h"
 
 #define EVAL_ENTRY(name) name##_eval_loop,
 #define PDF_ENTRY(name) name##_pdf_loop,

@@ -20,6 +20,7 @@
 #include "model/model_disney.h"
 #include "model/model_ggx.h"
 #include "model/model_glass.h"
+#include "model/model_gtr.h"
 #include "model/model_lambert.h"
 #include "model/model_metallic_roughness.h"
 #include "model/model_phong.h"
@@ -42,6 +43,9 @@
     X(beckmann, microfacet, "Beckmann (Gaussian) distribution of normals", "CS500 Project 3, D_b; Heitz 2014")         \
     X(ggx, microfacet, "GGX (Trowbridge-Reitz) distribution of normals",                                               \
       "CS500 Project 3, D_g; Dupuy and Benyoub 2023")                                                                  \
+    X(gtr, microfacet,                                                                                                 \
+      "generalised Trowbridge-Reitz distribution of normals, any gamma, with its exact Smith masking",                 \
+      "Disney 2012, appendix B; Dimov 2015 (masking=published)")                                                       \
     X(glass, glass, "smooth dielectric: mirror reflection and refraction",                                             \
       "CS500 Project 3, exact F; Walter 2007, s. 4")                                                                   \
     X(metallic_roughness, metallic_roughness, "glTF's material: dielectric over diffuse, blended towards a metal",     \

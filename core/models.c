@@ -21,12 +21,24 @@ static const facet_model_info models[] = {FACET_MODELS(INFO_ROW)};
 FACET_MODELS(FITS_ROW)
 
 /* Parameters that say the same thing in two ways: at most one side may be given. */
-static const char *const exclusive[][2] = {{"alpha", "alpha_x"},    {"alpha", "alpha_y"}, {"exponent", "alpha"}, {"exponent", "alpha_x"},
-                                           {"exponent", "alpha_y"}, {"ks", "ior"},        {"ks", "metal"},
-                                           {"ks", "eta"},           {"ks", "k"},          {"f82", "ior"},
-                                           {"f82", "metal"},        {"f82", "eta"},       {"f82", "k"},
-                                           {"ior", "metal"},        {"ior", "eta"},       {"ior", "k"},
-                                           {"metal", "eta"},        {"metal", "k"}};
+static const char *const exclusive[][2] = {{"alpha", "alpha_x"},
+                                           {"alpha", "alpha_y"},
+                                           {"exponent", "alpha"},
+                                           {"exponent", "alpha_x"},
+                                           {"exponent", "alpha_y"},
+                                           {"ks", "ior"},
+                                           {"ks", "metal"},
+                                           {"ks", "eta"},
+                                           {"ks", "k"},
+                                           {"f82", "ior"},
+                                           {"f82", "metal"},
+                                           {"f82", "eta"},
+                                           {"f82", "k"},
+                                           {"ior", "metal"},
+                                           {"ior", "eta"},
+                                           {"ior", "k"},
+                                           {"metal", "eta"},
+                                           {"metal", "k"}};
 
 /* Parameters that mean nothing without each other. */
 static const char *const together[][2] = {{"eta", "k"}, {"k", "eta"}};

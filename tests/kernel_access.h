@@ -15,6 +15,9 @@ typedef enum kernel_distribution {
     KERNEL_GGX
 } kernel_distribution;
 
+/* What is known of G1 of gtr: from the polynomials that materials use, by quadrature for each element, and as published. */
+typedef enum kernel_masking { KERNEL_PREPARED, KERNEL_DIRECT, KERNEL_PUBLISHED } kernel_masking;
+
 typedef struct kernel_access {
     const char *name;
     double epsilon;
@@ -31,6 +34,11 @@ typedef struct kernel_access {
     double (*beckmann_slope_along)(double mu, double u);
     /* Masking and shadowing together, height-correlated. */
     double (*ggx_G2)(double alpha_x, double alpha_y, const double wi[3], const double wo[3]);
+    /* D(m) of gtr, stretched or as Disney writes it. */
+    double (*gtr_D)(double alpha_x, double alpha_y, double gamma, int is_disney, const double m[3]);
+    double (*gtr_G1)(kernel_masking which, double alpha, double gamma, double mu);
+    double (*gtr_Lambda)(double alpha, double gamma, double mu);
+    void (*gtr_sample_ndf)(double alpha, double gamma, double ux, double uy, double m[3]);
     double (*fresnel_dielectric)(double c, double eta);
     /* Schlick's approximation with the dielectric's reflectance at normal incidence. */
     double (*fresnel_schlick)(double c, double eta);

@@ -1,12 +1,16 @@
 /* kernel_access_text.h: a table of kernel_access.h, written once for both precisions.  Included by
  * kernel_access_f32.c and kernel_access_f64.c, which define FACET_REAL_IS_DOUBLE and ACCESS, the table's symbol.
  * SPDX-License-Identifier: MIT */
+#include <math.h>
+
 #include "tests/kernel_access.h"
 
 #include "core/kernel/bsdf.h"
 #include "core/kernel/distribution.h"
 #include "core/kernel/fresnel.h"
 #include "core/kernel/microfacet.h"
+#define FACET_PREPARE
+#include "core/model/model_gtr.h"
 
 static double density(kernel_distribution which, double shape_x, double shape_y, const double m[3])
 {
@@ -80,6 +84,53 @@ static double joint_G2(double alpha_x, double alpha_y, const double wi[3], const
                     smith_rest(i.z, o.z, distribution_sigma(d, i), distribution_sigma(d, o), G2_CORRELATED));
 }
 
+/* Prepared anew for another shape only. */
+static const gtr_shape *gtr_of(double alpha_x, double alpha_y, double gamma, int is_disney)
+{
+    static double last[3];
+    static gtr_shape g;
+    if (alpha_x != last[0] || alpha_y != last[1] || gamma != last[2] || g.anisotropy != is_disney) {
+        g = gtr_shape_of((real)alpha_x, (real)alpha_y, (real)gamma, is_disney ? GTR_DISNEY : GTR_STRETCHED);
+        last[0] = alpha_x;
+        last[1] = alpha_y;
+        last[2] = gamma;
+    }
+    return &g;
+}
+
+static double gtr_density(double alpha_x, double alpha_y, double gamma, int is_disney, const double m[3])
+{
+    const gtr_shape *g = gtr_of(alpha_x, alpha_y, gamma, is_disney);
+    const real3 n = make3((real)m[0], (real)m[1], (real)m[2]);
+    return (double)(is_disney ? gtr_disney_D(n, *g) : gtr_D(n, *g));
+}
+
+static double gtr_G1(kernel_masking which, double alpha, double gamma, double mu)
+{
+    const gtr_shape *g = gtr_of(alpha, alpha, gamma, 0);
+    const double inverse = 1/hypot(mu, 1);
+    const real3 v = make3((real)inverse, 0, (real)(mu*inverse));
+    switch (which) {
+    case KERNEL_PREPARED: return (double)(v.z/gtr_sigma(v, *g));
+    case KERNEL_DIRECT: return 1/(1 + (double)gtr_Lambda_direct((real)alpha, (real)gamma, (real)mu));
+    case KERNEL_PUBLISHED: return (double)gtr_published_G1(v, *g, gtr_spline_at((real)gamma));
+    }
+    return 0;
+}
+
+static double gtr_Lambda_of(double alpha, double gamma, double mu)
+{
+    return (double)gtr_Lambda_exact((real)alpha, (real)gamma, (real)mu);
+}
+
+static void sample_gtr(double alpha, double gamma, double ux, double uy, double m[3])
+{
+    const real3 n = normalize3(gtr_sample_ndf((real)ux, (real)uy, *gtr_of(alpha, alpha, gamma, 0)));
+    m[0] = (double)n.x;
+    m[1] = (double)n.y;
+    m[2] = (double)n.z;
+}
+
 static double dielectric(double c, double eta)
 {
     return (double)fresnel_dielectric((real)c, (real)eta);
@@ -137,6 +188,10 @@ const kernel_access ACCESS = {
     .phong_slope_across = phong_slope_across,
     .beckmann_slope_along = beckmann_slope_along,
     .ggx_G2 = joint_G2,
+    .gtr_D = gtr_density,
+    .gtr_G1 = gtr_G1,
+    .gtr_Lambda = gtr_Lambda_of,
+    .gtr_sample_ndf = sample_gtr,
     .fresnel_dielectric = dielectric,
     .fresnel_schlick = schlick,
     .fresnel_conductor = conductor,

@@ -7,13 +7,18 @@
 
 #include "beckmann.h"
 #include "ggx.h"
+#include "gtr.h"
+#include "gtr_lambda.h"
+#include "gtr_published.h"
+#include "gtr_sample.h"
 #include "phong.h"
 
 /* In the order of the choices in the parameter tables. */
 #define NDF_GGX           0
 #define NDF_BECKMANN      1
 #define NDF_PHONG         2
-#define NDF_COUNT         3
+#define NDF_GTR           3
+#define NDF_COUNT         4
 #define MASKING_EXACT     0
 #define MASKING_PUBLISHED 1
 
@@ -22,14 +27,26 @@ typedef struct distribution {
     int masking;
     real alpha_x, alpha_y; /* roughness along x and y; for phong the stretch of slopes, 1 when isotropic */
     phong_shape phong;
+    gtr_shape gtr;
+    gtr_spline spline; /* of the published masking of gtr */
 } distribution;
 
-/* D at the direction of m, 1/sr; m need not be a unit vector. */
-KERNEL real distribution_D(distribution d, real3 m)
+/* The D at the direction of m, 1/sr, that normals are drawn with and whose Lambda is known; m need not be a unit vector. */
+KERNEL real distribution_drawn_D(distribution d, real3 m)
 {
     return d.kind == NDF_GGX        ? ggx_D(m, d.alpha_x, d.alpha_y)
            : d.kind == NDF_BECKMANN ? beckmann_D(m, d.alpha_x, d.alpha_y)
+           : d.kind == NDF_GTR      ? gtr_D(m, d.gtr)
                                     : phong_D(m, d.phong, d.alpha_x, d.alpha_y);
+}
+
+/* Disney's anisotropic gtr, whose masking and sampling are borrowed from the stretched one. */
+KERNEL int distribution_is_disney(distribution d) { return (d.kind == NDF_GTR) & (d.gtr.anisotropy == GTR_DISNEY); }
+
+/* D at the direction of m: the same, but for Disney's anisotropic gtr. */
+KERNEL real distribution_D(distribution d, real3 m)
+{
+    return distribution_is_disney(d) ? gtr_disney_D(m, d.gtr) : distribution_drawn_D(d, m);
 }
 
 /* Smith's Lambda of the distribution itself. */
@@ -37,6 +54,7 @@ KERNEL real distribution_exact_Lambda(distribution d, real3 v)
 {
     return d.kind == NDF_GGX        ? ggx_Lambda(v, d.alpha_x, d.alpha_y)
            : d.kind == NDF_BECKMANN ? beckmann_Lambda(v, d.alpha_x, d.alpha_y)
+           : d.kind == NDF_GTR      ? gtr_Lambda(v, d.gtr)
                                     : phong_Lambda(v, d.phong, d.alpha_x, d.alpha_y);
 }
 
@@ -46,6 +64,7 @@ KERNEL real distribution_published_Lambda(distribution d, real3 v)
     real a = stretched_cot(v, d.alpha_x, d.alpha_y);
     return d.kind == NDF_GGX        ? ggx_Lambda(v, d.alpha_x, d.alpha_y)
            : d.kind == NDF_BECKMANN ? rational_fit_Lambda(a)
+           : d.kind == NDF_GTR      ? 1/gtr_published_G1(v, d.gtr, d.spline) - 1
                                     : rational_fit_Lambda(a*phong_fit_scale(d.phong));
 }
 
@@ -59,7 +78,9 @@ KERNEL real distribution_Lambda(distribution d, real3 v)
  * Lambda that masks. */
 KERNEL real distribution_exact_sigma(distribution d, real3 v)
 {
-    return d.kind == NDF_GGX ? ggx_sigma(v, d.alpha_x, d.alpha_y) : v.z*(1 + distribution_exact_Lambda(d, v));
+    return d.kind == NDF_GGX   ? ggx_sigma(v, d.alpha_x, d.alpha_y)
+           : d.kind == NDF_GTR ? gtr_sigma(v, d.gtr)
+                               : v.z*(1 + distribution_exact_Lambda(d, v));
 }
 
 KERNEL real distribution_sigma(distribution d, real3 v)
@@ -73,13 +94,15 @@ KERNEL real3 distribution_sample_ndf(distribution d, real ux, real uy)
 {
     return select3(d.kind == NDF_GGX, ggx_sample_ndf(ux, uy, d.alpha_x, d.alpha_y),
                    select3(d.kind == NDF_BECKMANN, beckmann_sample_ndf(ux, uy, d.alpha_x, d.alpha_y),
-                           phong_sample_ndf(ux, uy, d.phong, d.alpha_x, d.alpha_y)));
+                           select3(d.kind == NDF_GTR, gtr_sample_ndf(ux, uy, d.gtr),
+                                   phong_sample_ndf(ux, uy, d.phong, d.alpha_x, d.alpha_y))));
 }
 
-/* A normal with density D (wo.wm)+/sigma(wo), of any length. */
-KERNEL real3 distribution_sample_vndf(distribution d, real3 wo, real ux, real uy)
+/* A normal with density D (wo.wm)+/sigma(wo), of any length; gtr uses a third number. */
+KERNEL real3 distribution_sample_vndf(distribution d, real3 wo, real ux, real uy, real uz)
 {
     return select3(d.kind == NDF_GGX, ggx_sample_vndf(wo, ux, uy, d.alpha_x, d.alpha_y),
                    select3(d.kind == NDF_BECKMANN, beckmann_sample_vndf(wo, ux, uy, d.alpha_x, d.alpha_y),
-                           phong_sample_vndf(wo, ux, uy, d.phong, d.alpha_x, d.alpha_y)));
+                           select3(d.kind == NDF_GTR, gtr_sample_vndf(wo, ux, uy, uz, d.gtr),
+                                   phong_sample_vndf(wo, ux, uy, d.phong, d.alpha_x, d.alpha_y))));
 }

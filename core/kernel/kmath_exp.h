@@ -60,19 +60,28 @@ KERNEL real_split split_binary(real x)
     return s;
 }
 
-/* ln x (0.9 / 0.9 ulp) for x >= REAL_MIN; whatever is smaller (0, negative, NaN) counts as REAL_MIN:
- * -87.34 / -708.4.  ln(1+f) = 2 atanh(s), s = f/(2+f), arranged as f - f^2/2 + s (f^2/2 + s^2 q(s^2)) so that f is not
- * rounded. */
-KERNEL real klog(real x)
+/* ln of a split number: ln(1+f) = 2 atanh(s), s = f/(2+f), arranged as f - f^2/2 + s (f^2/2 + s^2 q(s^2)) so that f is
+ * not rounded. */
+KERNEL real log_of_split(real_split x)
 {
-    real_split x2n = split_binary(kmax(x, REAL_MIN));
-    real n         = x2n.n;
-    real f         = x2n.f;
-    real s         = f/(2.0f + f);
-    real s2        = s*s;
-    real half      = 0.5f*f*f;
-    real tail      = s*(half + s2*poly_log(s2)) + n*LN_TWO_LOW;
-    return n*LN_TWO_HIGH + (f - (half - tail));
+    real s    = x.f/(2.0f + x.f);
+    real s2   = s*s;
+    real half = 0.5f*x.f*x.f;
+    real tail = s*(half + s2*poly_log(s2)) + x.n*LN_TWO_LOW;
+    return x.n*LN_TWO_HIGH + (x.f - (half - tail));
+}
+
+/* ln x (0.9 / 0.9 ulp) for x >= REAL_MIN; whatever is smaller (0, negative, NaN) counts as REAL_MIN:
+ * -87.34 / -708.4. */
+KERNEL real klog(real x) { return log_of_split(split_binary(kmax(x, REAL_MIN))); }
+
+/* ln x of an x >= REAL_MIN whose difference from 1 is known better than x - 1 gives it; relative to the result (1.5 / 1.5
+ * ulp). */
+KERNEL real klog_near_one(real x, real x_minus_1)
+{
+    real_split split = split_binary(x);
+    split.f          = split.n == 0.0f ? x_minus_1 : split.f;
+    return log_of_split(split);
 }
 
 /* ln(1+x) (1.5 / 1.5 ulp) for x > -1, to relative accuracy near 0; x <= -1 counts as 1 + x = REAL_MIN.

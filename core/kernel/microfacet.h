@@ -38,6 +38,7 @@ typedef struct specular_term {
     real3 m;      /* along wm, of any length */
     real cos_d;   /* wi.wm = wo.wm */
     real D;       /* of wm */
+    real drawn_D; /* ... of the normals that samples are made with */
     real sigma_o; /* projected area towards wo */
     real rest;    /* 1/(4 V): the projected area that G2 leaves, divided by V's 4 */
     real inverse; /* 1/(4 rest sigma_o) */
@@ -59,6 +60,7 @@ KERNEL specular_term specular_about(distribution d, int g2, real3 wi, real3 wo, 
     s.m       = m;
     s.cos_d   = kmin(cos_d, 1);
     s.D       = distribution_D(d, m);
+    s.drawn_D = distribution_drawn_D(d, m);
     s.sigma_o = distribution_sigma(d, wo);
     s.rest    = smith_rest(wi.z, wo.z, distribution_sigma(d, wi), s.sigma_o, g2);
     s.inverse = 0.25f/(s.rest*s.sigma_o);
@@ -76,17 +78,18 @@ KERNEL specular_term specular_at(distribution d, int g2, real3 wi, real3 wo)
 KERNEL real specular_f(specular_term s, real3 wi) { return s.D*(s.inverse*s.sigma_o)*wi.z; }
 
 /* The density of wi when the normal is drawn from the visible ones, D (wo.wm)/sigma_o over the Jacobian 4 (wo.wm):
- * s.D*(s.inverse*s.rest) with the sigma_o of the exact masking, whatever masks. */
+ * s.drawn_D*(s.inverse*s.rest) with the sigma_o of the exact masking, whatever masks. */
 KERNEL real specular_visible_pdf(distribution d, specular_term s, real3 wo)
 {
-    return d.masking == MASKING_PUBLISHED ? 0.25f*s.D/distribution_exact_sigma(d, wo) : s.D*(s.inverse*s.rest);
+    return d.masking == MASKING_PUBLISHED ? 0.25f*s.drawn_D/distribution_exact_sigma(d, wo)
+                                          : s.drawn_D*(s.inverse*s.rest);
 }
 
 /* The same for all normals, D cos_m/(4 (wo.wm)).  [cs500, P_r]. */
 KERNEL real specular_ndf_pdf(specular_term s)
 {
     real cos_d = kmax(s.cos_d, COS_SMALLEST);
-    return s.D*s.m.z/(4*length3(s.m)*cos_d);
+    return s.drawn_D*s.m.z/(4*length3(s.m)*cos_d);
 }
 
 /* f cos_i of the mixture.  [cs500, EvalScattering]. */
@@ -137,11 +140,23 @@ KERNEL bsdf_sample microfacet_sample_mixture(microfacet_params p, real3 wo, real
                            LOBE_REFLECTION | (is_diffuse ? LOBE_DIFFUSE : LOBE_GLOSSY));
 }
 
+/* What is uniform again of the number that chooses the lobe, where it chooses the specular one. */
+KERNEL real microfacet_rest_of(microfacet_params p, real u)
+{
+    return p.has_diffuse ? (u - p.p_diffuse)/(1 - p.p_diffuse) : u;
+}
+
+/* The sample about a normal that is already drawn. */
+KERNEL bsdf_sample microfacet_sample_about(microfacet_params p, real3 wo, real3 u, real3 m)
+{
+    return p.is_one ? microfacet_sample_visible(p, wo, m) : microfacet_sample_mixture(p, wo, u, m);
+}
+
 KERNEL bsdf_sample microfacet_sample(microfacet_params p, real3 wo, real3 u)
 {
     real3 m = select3(p.sampling == SAMPLING_NDF, distribution_sample_ndf(p.d, u.x, u.y),
-                      distribution_sample_vndf(p.d, wo, u.x, u.y));
-    return p.is_one ? microfacet_sample_visible(p, wo, m) : microfacet_sample_mixture(p, wo, u, m);
+                      distribution_sample_vndf(p.d, wo, u.x, u.y, microfacet_rest_of(p, u.z)));
+    return microfacet_sample_about(p, wo, u, m);
 }
 
 /* What the mixture's samples can be. */
@@ -159,14 +174,14 @@ KERNEL real3 microfacet_terms(microfacet_params p, real3 m)
 
 /* The loops are compiled once for each distribution and each of these groups of settings, so that what is the same for
  * a whole material is not chosen per element.  Compiling takes long: only GGX, where Fresnel's term weighs, has them
- * all; the others take PURE for USUAL and METAL, and RARE for MIXED. */
+ * all; the others take PURE for METAL, and RARE for MIXED; Beckmann and Phong also PURE for USUAL. */
 #define MICROFACET_USUAL     0 /* as PURE, with Schlick's Fresnel and correlated masking */
 #define MICROFACET_METAL     1 /* as PURE, of a conductor, whose Fresnel term costs more than all the rest */
 #define MICROFACET_MIXED     2 /* as PURE, over a Lambertian term; no conductor */
 #define MICROFACET_PURE      3 /* one lobe: visible normals, exact masking (GGX: no conductor) */
 #define MICROFACET_NDF       4 /* all normals, exact masking; no conductor */
 #define MICROFACET_PUBLISHED 5 /* all normals, the masking that the paper prints; no conductor */
-#define MICROFACET_RARE      6 /* everything else; chooses as it runs */
+#define MICROFACET_RARE      6 /* everything else, Disney's anisotropic gtr too; chooses as it runs */
 #define MICROFACET_GROUPS    7
 
 KERNEL int microfacet_variant(microfacet_params p)
@@ -174,11 +189,12 @@ KERNEL int microfacet_variant(microfacet_params p)
     int is_ggx       = p.d.kind == NDF_GGX;
     int is_metal     = p.F.kind == FRESNEL_CONDUCTOR;
     int is_published = p.d.masking == MASKING_PUBLISHED;
-    int is_usual     = is_ggx & (p.F.kind == FRESNEL_SCHLICK) & (p.g2 == G2_CORRELATED);
+    int is_usual     = (is_ggx | (p.d.kind == NDF_GTR)) & (p.F.kind == FRESNEL_SCHLICK) & (p.g2 == G2_CORRELATED);
     int one          = (is_metal & is_ggx) ? MICROFACET_METAL : (is_usual ? MICROFACET_USUAL : MICROFACET_PURE);
     int all     = is_published & !is_ggx ? MICROFACET_PUBLISHED : (is_published ? MICROFACET_RARE : MICROFACET_NDF);
     int visible = is_ggx & !is_published ? MICROFACET_MIXED : MICROFACET_RARE;
-    int several = is_metal ? MICROFACET_RARE : (p.sampling == SAMPLING_NDF ? all : visible);
+    int several = is_metal | distribution_is_disney(p.d) ? MICROFACET_RARE
+                                                         : (p.sampling == SAMPLING_NDF ? all : visible);
     return MICROFACET_GROUPS*p.d.kind + (p.is_one ? one : several);
 }
 
@@ -198,6 +214,7 @@ KERNEL microfacet_params microfacet_fix(microfacet_params p, int variant)
     int other           = is_usual ? FRESNEL_SCHLICK : (is_any ? p.F.kind : clear);
     microfacet_params q = p;
     q.d.kind            = kind;
+    q.d.gtr.anisotropy  = is_rare ? p.d.gtr.anisotropy : GTR_STRETCHED;
     q.d.masking         = is_rare ? p.d.masking : (is_published ? MASKING_PUBLISHED : MASKING_EXACT);
     q.sampling          = is_rare ? p.sampling : (is_all ? SAMPLING_NDF : SAMPLING_VNDF);
     q.F.kind            = is_metal ? FRESNEL_CONDUCTOR : other;
@@ -207,11 +224,9 @@ KERNEL microfacet_params microfacet_fix(microfacet_params p, int variant)
     return q;
 }
 
-/* Of the variants, those that microfacet_variant gives. */
+/* Of the variants, those that microfacet_variant gives: of ggx, beckmann, phong and gtr. */
 #define EACH_VARIANT_microfacet(CASE, name)                                                                            \
     CASE(name, 0)                                                                                                      \
-    CASE(name, 1)                                                                                                      \
-    CASE(name, 2)                                                                                                      \
-    CASE(name, 3) CASE(name, 4) CASE(name, 6)                       /* ggx */                                          \
-        CASE(name, 10) CASE(name, 11) CASE(name, 12) CASE(name, 13) /* beckmann */                                     \
-        CASE(name, 17) CASE(name, 18) CASE(name, 19) CASE(name, 20) /* phong */
+    CASE(name, 1) CASE(name, 2) CASE(name, 3) CASE(name, 4) CASE(name, 6) CASE(name, 10) CASE(name, 11) CASE(name, 12) \
+        CASE(name, 13) CASE(name, 17) CASE(name, 18) CASE(name, 19) CASE(name, 20) CASE(name, 21) CASE(name, 24)       \
+            CASE(name, 25) CASE(name, 26) CASE(name, 27)

@@ -124,10 +124,10 @@ FACET_API facet_status facet_material_set(facet_material *material, const char *
 /* A material prepared for evaluation, in float and in double.  The caller owns the storage; the
  * content is private and valid for one version of the library on one machine; copy it freely. */
 typedef struct facet_bsdf {
-    double state[32];
+    double state[64];
 } facet_bsdf;
 typedef struct facet_bsdf64 {
-    double state[48];
+    double state[256];
 } facet_bsdf64;
 
 FACET_API facet_status facet_bsdf_prepare(const facet_material *material, facet_bsdf *bsdf, facet_error *why);

@@ -1,0 +1,290 @@
+/* gtr_fit.c: polynomials of the effective roughness of a GTR distribution of normals.
+ *
+ * M(mu) = mu + 2 mu Lambda(mu) is the mean of |p - mu| over the slopes p along one axis.  For 0 < gamma < 2 a GTR is a
+ * mixture of GGX of roughness^2 a in (alpha^2, 1) [docs/models/gtr.md], and M mixes sqrt(mu^2 + a) linearly:
+ *
+ *     M(mu) = C Int ((1 - a)/(a - alpha^2))^(gamma - 1) sqrt(mu^2 + a) da/a.
+ *
+ * The power is one function outside the segment [alpha^2, 1], so the integral over the segment is one around it; and
+ * that one exists for every gamma.  In p = sqrt(a) the segment [alpha, 1] lies in the right half plane, on whose border
+ * sqrt(mu^2 + p^2) is singular whatever mu is.  Gauss's transformation P = (p + alpha/p)/2 maps the half plane to
+ * itself, twice, and the segment to [sqrt(alpha), (1 + alpha)/2]; after a few of them it is nearly a point, around which
+ * circles are best.  The trapezoidal rule on a circle converges geometrically, and its nodes are carried back.  The
+ * function 1 of the segment has no integral around it, so 1 is taken off the power, and gamma = 1 is a limit.
+ *
+ * Everything is +-*, /, square roots and core/kernel/kmath.h in double: the same bits on every processor.
+ * SPDX-License-Identifier: MIT */
+#define FACET_REAL_IS_DOUBLE 1
+#include "gtr_fit.h"
+
+#include "kernel/kmath.h"
+
+enum { LEVELS = 4, NODES = 128, POINTS = GTR_TERMS };
+
+/* Tuned so that G1 is exact to 1e-8 (decay 18) and 1e-14 (decay 34) with the fewest nodes. */
+#define LARGEST_EXTENT 0.12
+#define SHORTEST_REACH 3.0 /* of ln a beyond ln alpha^2 */
+#define LARGEST_LOW 0.9
+#define LARGEST_SHARE 0.44
+#define SHARE_POWER 0.35
+#define FLOAT_DECAY 18.0
+#define DOUBLE_DECAY 34.0
+
+#define ROUGHEST (1 - 4*REAL_EPSILON) /* alpha beyond gives the same to the last bits, but 0/0 */
+#define FLOAT_RANGE 12.5              /* of (gamma - 1) ln s: beyond, Lambda is below 1e-6 */
+#define DOUBLE_RANGE 36.0             /* ... and 1e-15 */
+#define LEAST_EXCESS 1e-16            /* of gamma - 1, in place of 0 */
+
+/* The nodes a in the upper half plane, times their weights for a/(sqrt(mu^2 + a) + mu). */
+typedef struct mixture {
+    int n;
+    double re[NODES], im[NODES];     /* a */
+    double b_re[NODES], b_im[NODES]; /* a w; the sum over the nodes of Im w is 1 */
+} mixture;
+
+typedef struct complex_number {
+    double re, im;
+} complex_number;
+
+static inline complex_number times(complex_number a, complex_number b)
+{
+    return (complex_number){a.re*b.re - a.im*b.im, a.re*b.im + a.im*b.re};
+}
+
+static inline complex_number over(complex_number a, complex_number b)
+{
+    const double inverse = 1/(b.re*b.re + b.im*b.im);
+    return (complex_number){(a.re*b.re + a.im*b.im)*inverse, (a.im*b.re - a.re*b.im)*inverse};
+}
+
+/* The root with a positive real part, of a number with a positive imaginary part. */
+static inline complex_number root(complex_number a)
+{
+    const double length = ksqrt(a.re*a.re + a.im*a.im);
+    const double big = ksqrt(0.5*(length + kabs(a.re))), small = 0.5*kabs(a.im)/big;
+    return a.re > 0 ? (complex_number){big, small} : (complex_number){small, big};
+}
+
+/* The nodes of a circle about the segment [low, high] of p, moved outwards by `share` of the way to the border of the
+ * half plane, exact to e^-decay.  node: p, step: i times the derivative of ln p by the angle. */
+static int ring(double low, double high, double share, double decay, complex_number *node, complex_number *step)
+{
+    double mean[LEVELS];
+    int levels = 0;
+    double centre = ksqrt(low*high), extent = (high - centre)/(high + centre);
+    while (extent > LARGEST_EXTENT && levels < LEVELS) {
+        mean[levels++] = centre;
+        high = 0.5*(low + high);
+        low = centre;
+        centre = ksqrt(low*high);
+        extent = (high - centre)/(high + centre);
+    }
+    const double depth = klog(2/extent);
+    const double radius = kexp(-share*depth);
+    int n = (int)(decay/(2*share*depth)) + 1;
+    if (n > NODES >> levels) n = NODES >> levels;
+    for (int j = 0; j < n; j++) {
+        const real2 turn = kcossin_turn((j + 0.5)/(2*n));
+        const complex_number z = {radius*turn.x, radius*turn.y}, z2 = times(z, z);
+        const complex_number up = {1 + z.re, z.im}, down = {1 - z.re, -z.im};
+        const complex_number p = over(up, down);
+        node[j] = (complex_number){centre*p.re, centre*p.im};
+        step[j] = over((complex_number){-2*z.im, 2*z.re}, (complex_number){1 - z2.re, -z2.im});
+    }
+    for (int level = levels - 1; level >= 0; level--) {
+        const double g2 = mean[level]*mean[level];
+        for (int j = 0; j < n; j++) {
+            const complex_number P = node[j], P2 = times(P, P);
+            const complex_number r = root((complex_number){P2.re - g2, P2.im});
+            const complex_number p = {P.re + r.re, P.im + r.im}, q = over((complex_number){g2, 0}, p);
+            const complex_number d = over(times(step[j], P), r);
+            node[j] = p;
+            step[j] = d;
+            node[n + j] = (complex_number){q.re, -q.im};
+            step[n + j] = (complex_number){d.re, -d.im};
+        }
+        n *= 2;
+    }
+    return n;
+}
+
+/* The mixture, exact to about e^-decay.  A steep power is so small away from alpha^2 that the ring may cross the
+ * segment there; it is large on a tight ring. */
+static void mix_ggx(double alpha, double gamma, double decay, mixture *m)
+{
+    const double reach = kmax(SHORTEST_REACH, decay/kmax(gamma - 1.5, REAL_MIN));
+    const double high = kmin(1, alpha*kexp(0.5*kmin(reach, 40)));
+    const double share = LARGEST_SHARE*kpow(2/kmax(gamma, 2), SHARE_POWER);
+    complex_number node[NODES], step[NODES];
+    m->n = ring(kmin(alpha, LARGEST_LOW*high), high, share, decay, node, step);
+    const double k0 = (1 - alpha)*(1 + alpha), excess = gamma - 1;
+    const double power = kabs(excess) > LEAST_EXCESS ? excess : LEAST_EXCESS;
+    double sum = 0;
+#pragma omp simd
+    for (int j = 0; j < m->n; j++) {
+        const complex_number a = times(node[j], node[j]);
+        /* the logarithm of (a - 1)/(a - alpha^2) = 1 + t, and the power less 1 */
+        const complex_number t = over((complex_number){-k0, 0}, (complex_number){a.re - alpha*alpha, a.im});
+        const double l_re = 0.5*klog1p(t.re*(2 + t.re) + t.im*t.im), l_im = katan2(t.im, 1 + t.re);
+        const real2 turn = kcossin(power*l_im), half = kcossin(0.5*power*l_im);
+        const double grown = kexpm1(power*l_re);
+        const complex_number f = {(grown*turn.x - 2*half.y*half.y)/power, (grown + 1)*turn.y/power};
+        const complex_number w = times(f, step[j]), b = times(w, a);
+        m->re[j] = a.re;
+        m->im[j] = a.im;
+        m->b_re[j] = b.re;
+        m->b_im[j] = b.im;
+        step[j] = w;
+    }
+    for (int j = 0; j < m->n; j++) sum += step[j].im;
+#pragma omp simd
+    for (int j = 0; j < m->n; j++) {
+        m->b_re[j] /= sum;
+        m->b_im[j] /= sum;
+    }
+}
+
+/* (M - mu)/sin of POINTS directions, given cos and sin^2: the sum of Im(b/(sqrt(cos^2 + a sin^2) + cos)),
+ * which has no cancellation at small roughness.  The elements of a vector are directions, so that the order of the sum
+ * does not depend on the processor. */
+static void excess_of(const mixture *m, const double *cosine, const double *sin2, double *sum)
+{
+    for (int j = 0; j < POINTS; j++) sum[j] = 0;
+    for (int k = 0; k < m->n; k++) {
+        const double re = m->re[k], im = m->im[k], b_re = m->b_re[k], b_im = m->b_im[k];
+#pragma omp simd
+        for (int j = 0; j < POINTS; j++) {
+            const double x = cosine[j]*cosine[j] + re*sin2[j], y = im*sin2[j];
+            const double length = ksqrt(x*x + y*y);
+            const double big = ksqrt(0.5*(length + kabs(x))), small = 0.5*y/big;
+            const double u = x > 0 ? big : small, v = x > 0 ? small : big;
+            const double c = u + cosine[j];
+            sum[j] += (b_im*c - b_re*v)/(c*c + v*v);
+        }
+    }
+}
+
+/* The coefficients of the powers of x of the polynomial through n values at the zeros cos(pi (j + 1/2)/n) of
+ * Chebyshev's polynomial. */
+static void interpolate(int n, const double *value, double *terms)
+{
+    double wave[4*POINTS]; /* cos(2 pi k/(4 n)) */
+    for (int k = 0; k < 4*n; k++) wave[k] = kcossin_turn(k/(4.0*n)).x;
+    double older[POINTS] = {0}, old[POINTS] = {0}, next[POINTS]; /* powers of two successive T_k */
+    for (int i = 0; i < n; i++) terms[i] = 0;
+    for (int k = 0; k < n; k++) {
+        double c = 0;
+        for (int j = 0; j < n; j++) c += value[j]*wave[k*(2*j + 1)%(4*n)];
+        c *= (k ? 2.0 : 1.0)/n;
+        for (int i = 0; i < n; i++) next[i] = k < 2 ? i == k : 2*(i ? old[i - 1] : 0) - older[i];
+        for (int i = 0; i < n; i++) {
+            terms[i] += c*next[i];
+            older[i] = old[i];
+            old[i] = next[i];
+        }
+    }
+}
+/* x/(e^x - 1). */
+static double over_expm1(double x)
+{
+    return kabs(x) > REAL_MIN ? x/kexpm1(x) : 1;
+}
+
+/* The directions at POINTS values y of ln(s/alpha^2): cos, sin^2, and what the mixture gives there. */
+typedef struct directions {
+    double cosine[POINTS], sin2[POINTS], excess[POINTS];
+} directions;
+
+static void look(const mixture *m, double alpha, const double *y, directions *d)
+{
+    const double k0 = (1 - alpha)*(1 + alpha), L = -2*klog(alpha);
+    for (int j = 0; j < POINTS; j++) {
+        d->cosine[j] = ksqrt(alpha*alpha*kexpm1(y[j])/k0);
+        d->sin2[j] = -kexpm1(y[j] - L)/k0;
+    }
+    excess_of(m, d->cosine, d->sin2, d->excess);
+}
+
+/* (M - mu)(M + mu), without the negative numbers that rounding makes of the smallest */
+static double effective_alpha2(const directions *d, int j)
+{
+    return kmax(d->excess[j]*(2*d->cosine[j] + d->sin2[j]*d->excess[j]), 0);
+}
+
+/* The guess at the inverse of T, ln((T + mu)/T0) by ln(T0/T), from the known points: the values at the zeros of
+ * Chebyshev's polynomial by cubic interpolation between the four nearest of them. */
+static void fit_guess(const directions *d, gtr_fit *fit)
+{
+    double l[POINTS], e[POINTS], value[GTR_GUESS];
+    for (int j = 0; j < POINTS; j++) { /* from mu = 0 on */
+        const int i = POINTS - 1 - j;
+        const double sine = ksqrt(d->sin2[i]), mu = d->cosine[i]/sine, T = 0.5*d->excess[i]*sine;
+        if (j == 0) fit->T0 = T + 0.5*mu;
+        l[j] = klog(fit->T0/T);
+        e[j] = klog((T + mu)/fit->T0);
+    }
+    const double range = l[POINTS - 1];
+    fit->guess_scale = 2/range;
+    fit->guess_slope = (e[POINTS - 1] - e[POINTS - 2])/(l[POINTS - 1] - l[POINTS - 2]);
+    for (int j = 0; j < GTR_GUESS; j++) {
+        const double x = 0.5*range*(1 + kcossin_turn((j + 0.5)/(2*GTR_GUESS)).x);
+        int first = 0;
+        while (first < POINTS - 4 && l[first + 2] < x) first++;
+        value[j] = 0;
+        for (int a = first; a < first + 4; a++) {
+            double product = e[a];
+            for (int b = first; b < first + 4; b++)
+                if (b != a) product *= (x - l[b])/(l[a] - l[b]);
+            value[j] += product;
+        }
+    }
+    interpolate(GTR_GUESS, value, fit->guess);
+}
+
+void gtr_fit_shape(double alpha, double gamma, gtr_fit *fit)
+{
+    alpha = kmin(alpha, ROUGHEST);
+    const double L = -2*klog(alpha), k0 = (1 - alpha)*(1 + alpha);
+    *fit = (gtr_fit){.form = gamma < GTR_STEEP ? GTR_LOGARITHM : GTR_QUOTIENT};
+    fit->peak = INV_PI/(alpha*alpha)*over_expm1(-(gamma - 1)*L)/over_expm1(-L);
+    mixture m;
+    mix_ggx(alpha, gamma, FLOAT_DECAY, &m);
+    directions d;
+    double y[POINTS], f[POINTS];
+    const double range = kmin(L, FLOAT_RANGE/kmax(gamma - 1, REAL_MIN));
+    for (int j = 0; j < POINTS; j++) y[j] = 0.5*range*(1 + kcossin_turn((j + 0.5)/(2*POINTS)).x);
+    look(&m, alpha, y, &d);
+    fit_guess(&d, fit);
+    if (fit->form == GTR_QUOTIENT) {
+        for (int j = 0; j < POINTS; j++) y[j] = -klog1p(-0.5*k0*(1 + kcossin_turn((j + 0.5)/(2*POINTS)).x));
+        look(&m, alpha, y, &d);
+    }
+    for (int j = 0; j < POINTS; j++) {
+        const double A = effective_alpha2(&d, j);
+        f[j] = fit->form == GTR_LOGARITHM ? ksqrt(A) : A;
+    }
+    interpolate(POINTS, f, fit->terms);
+    fit->scale = fit->form == GTR_LOGARITHM ? -2/range : -2*alpha*alpha/k0;
+    fit->offset = fit->form == GTR_LOGARITHM ? 2*L/range - 1 : 2/k0 - 1;
+}
+
+void gtr_fit_pieces(double alpha, double gamma, gtr_fit *fit, double pieces[GTR_PIECES][GTR_TERMS])
+{
+    alpha = kmin(alpha, ROUGHEST);
+    const double L = -2*klog(alpha);
+    const double range = kmin(L, DOUBLE_RANGE/kmax(gamma - 1, REAL_MIN));
+    fit->form = GTR_LOGARITHM;
+    fit->scale = -GTR_PIECES/range;
+    fit->offset = GTR_PIECES*L/range;
+    mixture m;
+    mix_ggx(alpha, gamma, DOUBLE_DECAY, &m);
+    for (int piece = 0; piece < GTR_PIECES; piece++) {
+        directions d;
+        double y[POINTS], A[POINTS];
+        for (int j = 0; j < POINTS; j++)
+            y[j] = range/GTR_PIECES*(piece + 0.5 + 0.5*kcossin_turn((j + 0.5)/(2*POINTS)).x);
+        look(&m, alpha, y, &d);
+        for (int j = 0; j < POINTS; j++) A[j] = effective_alpha2(&d, j);
+        interpolate(POINTS, A, pieces[piece]);
+    }
+}

@@ -1,0 +1,33 @@
+/* gtr_fit.h: the constants of a GTR distribution of normals that its kernel does not compute: polynomials of its
+ * effective roughness.  Found once per material, in double precision, with the same bits everywhere.
+ *
+ * Numbers only, so that files of either precision of kernel/real.h can include it.
+ * SPDX-License-Identifier: MIT */
+#pragma once
+
+#include "kernel/gtr_terms.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct gtr_fit {
+    double peak;             /* D at the normal */
+    double T0;               /* T(mu) = mu Lambda(mu) at mu = 0 */
+    int form;                /* GTR_LOGARITHM, GTR_QUOTIENT */
+    double scale, offset;    /* the polynomial's variable is scale v + offset, v by the form */
+    double terms[GTR_TERMS]; /* coefficients of its powers */
+    double guess_scale, guess_slope;
+    double guess[GTR_GUESS];
+} gtr_fit;
+
+/* What both builds need, and the polynomial of the float build.  alpha in [1e-4, 1], gamma in (0, 20]. */
+void gtr_fit_shape(double alpha, double gamma, gtr_fit *fit);
+
+/* A instead over GTR_PIECES equal parts of ln s, from s = alpha^2 on, each in powers of a variable from -1 to 1.  The
+ * variable scale v + offset of `fit` then runs from 0 to GTR_PIECES. */
+void gtr_fit_pieces(double alpha, double gamma, gtr_fit *fit, double pieces[GTR_PIECES][GTR_TERMS]);
+
+#ifdef __cplusplus
+}
+#endif
