@@ -1,4 +1,4 @@
-/* bsdf_f32.c: prepared materials in single precision, and two models straight from their values.
+/* bsdf_f32.c: prepared materials in single precision, two models straight from their values, and parameters as words.
  * SPDX-License-Identifier: MIT */
 #define FACET_REAL_IS_DOUBLE 0
 #define NAME(verb) facet_bsdf_##verb
@@ -25,4 +25,23 @@ facet_bsdf facet_bsdf_glass(float ior, const float tint[3], int is_thin)
     facet_bsdf bsdf;
     memcpy(&bsdf, &p, offsetof(prepared, of) + sizeof p.of.glass);
     return bsdf;
+}
+
+size_t facet_bsdf_words(const facet_bsdf *bsdf, size_t n, uint32_t *words)
+{
+#define SIZE_ROW(name, variants) [KERNEL_##name] = sizeof(name##_params),
+    static const size_t sizes[] = {FACET_KERNELS(SIZE_ROW)};
+    const prepared *p = content(bsdf);
+    const size_t size = sizes[p->kernel];
+    const size_t n_there = size/sizeof *words;
+    if (n > n_there) memset(words + n_there, 0, (n - n_there)*sizeof *words);
+    if (n > 0) memcpy(words, &p->of, n < n_there ? n*sizeof *words : size);
+    return n_there;
+}
+
+const char *facet_bsdf_kernel(const facet_bsdf *bsdf)
+{
+#define KERNEL_NAME_ROW(name, variants) [KERNEL_##name] = #name,
+    static const char *const names[] = {FACET_KERNELS(KERNEL_NAME_ROW)};
+    return names[content(bsdf)->kernel];
 }

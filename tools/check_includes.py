@@ -23,7 +23,8 @@ INTRINSICS = "cpuid immintrin xmmintrin pmmintrin emmintrin"
 THIRD_PARTY = {"embree3/": "Embree", "OpenEXR/": "OpenEXR", "openexr": "OpenEXR", "png.h": "libpng",
                "jpeglib.h": "libjpeg", "jerror.h": "libjpeg", "jansson": "jansson", "civetweb": "civetweb",
                "mpi.h": "MPI", "zlib.h": "zlib", "sanitizer/": "sanitizers"}
-TESTS_ONLY = {"cmocka": "cmocka", "flint/": "FLINT", "arb": "Arb", "gsl/": "GSL", "mpfr": "MPFR"}
+TESTS_ONLY = {"cmocka": "cmocka", "flint/": "FLINT", "arb": "Arb", "gsl/": "GSL", "mpfr": "MPFR", "EGL/": "EGL",
+              "GLES3/": "OpenGL ES"}
 
 
 def headers(words):

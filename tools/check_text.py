@@ -9,9 +9,9 @@ import re
 
 import tree
 
-TEXT = (".c", ".h", ".py", ".sh", ".md", ".txt", ".cmake", ".json", ".map", ".supp", ".svg", ".yml", ".js", ".html",
-        ".glsl", ".gltf", ".clang-format", ".clang-tidy", ".gitignore", "Makefile", ".ci/run")
-SOURCES = (".c", ".h", ".py", ".sh", ".js", ".glsl")
+TEXT = (".c", ".h", ".py", ".sh", ".md", ".txt", ".cmake", ".json", ".map", ".supp", ".svg", ".yml", ".js", ".mjs",
+        ".html", ".glsl", ".gltf", ".clang-format", ".clang-tidy", ".gitignore", "Makefile", ".ci/run")
+SOURCES = (".c", ".h", ".py", ".sh", ".js", ".mjs", ".glsl")
 GENERATED = ("tests/data/", "tests/fuzz/corpus/", "bench/results/")
 TABS_ALLOWED = ("Makefile",)
 C_COLUMNS = 120

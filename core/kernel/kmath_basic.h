@@ -64,8 +64,24 @@ KERNEL real ksaturate(real x) { return kclamp(x, 0.0f, 1.0f); }
 KERNEL real kcopysign(real x, real s) { return real_of((bits_of(x) & ~SIGN_BIT) | (bits_of(s) & SIGN_BIT)); }
 KERNEL real ksign(real x) { return kcopysign(1.0f, x); }
 
-/* Largest integer <= x, and the nearest one (ties to even); exact for |x| < 2^22 / 2^51 */
-KERNEL real kround(real x) { return (x + ROUND_TO_INTEGER) - ROUND_TO_INTEGER; }
+/* The integer n nearest to x (ties to even), exact for |x| < 2^22 / 2^51, and a word whose low bits are n's in two's
+ * complement */
+typedef struct {
+    real n;
+    real_bits low;
+} real_integer;
+
+KERNEL real_integer round_to_integer(real x)
+{
+    real shifted = x + ROUND_TO_INTEGER;
+    real_integer r;
+    r.n   = shifted - ROUND_TO_INTEGER;
+    r.low = bits_of(shifted);
+    return r;
+}
+
+/* Largest integer <= x, and the nearest one, as above */
+KERNEL real kround(real x) { return round_to_integer(x).n; }
 KERNEL real kfloor(real x)
 {
     real n = kround(x);

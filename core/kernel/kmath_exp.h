@@ -5,18 +5,18 @@
 #include "kmath_basic.h"
 
 /* 2^n of an integral n in [-126, 127] / [-1022, 1023]; exact */
-KERNEL real two_to(real n) { return real_of(((bits_of(n + ROUND_TO_INTEGER)) << FRACTION_BITS) + ONE_BITS); }
+KERNEL real two_to(real n) { return real_of((round_to_integer(n).low << FRACTION_BITS) + ONE_BITS); }
 
 /* exp(a + b) for |b| <= 2^-20 |a|.  With n = round(a/ln 2) and r = a + b - n ln 2 it is 2^n (1 + r + r^2 q(r));
  * adding n to the exponent multiplies by 2^n, rightly for every result that is a normal number. */
 KERNEL real exp_of_sum(real a, real b)
 {
-    real shifted = a*INV_LN_TWO + ROUND_TO_INTEGER;
-    real n       = shifted - ROUND_TO_INTEGER;
-    real r       = ((a - n*LN_TWO_HIGH) - n*LN_TWO_LOW) + b;
-    real m       = 1.0f + (r + r*r*poly_exp(r));
-    real e       = real_of(bits_of(m) + (bits_of(shifted) << FRACTION_BITS));
-    real bounded = a > EXP_HIGHEST ? REAL_MAX : e;
+    real_integer power = round_to_integer(a*INV_LN_TWO);
+    real n             = power.n;
+    real r             = ((a - n*LN_TWO_HIGH) - n*LN_TWO_LOW) + b;
+    real m             = 1.0f + (r + r*r*poly_exp(r));
+    real e             = real_of(bits_of(m) + (power.low << FRACTION_BITS));
+    real bounded       = a > EXP_HIGHEST ? REAL_MAX : e;
     return a < EXP_LOWEST ? 0.0f : bounded;
 }
 

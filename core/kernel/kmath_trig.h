@@ -22,19 +22,19 @@ KERNEL real2 cossin_in_quadrant(real_bits quadrant, real r, real tail)
 /* (cos(2 pi u), sin(2 pi u)) (1.6 / 1.6 ulp), |u| < 2^20; the eight zeros and ones at multiples of 1/4 are exact */
 KERNEL real2 kcossin_turn(real u)
 {
-    real shifted = 4.0f*u + ROUND_TO_INTEGER;
-    real f       = u - 0.25f*(shifted - ROUND_TO_INTEGER);
-    return cossin_in_quadrant(bits_of(shifted), f*TWO_PI, f*TWO_PI_TAIL);
+    real_integer quadrant = round_to_integer(4.0f*u);
+    real f                = u - 0.25f*quadrant.n;
+    return cossin_in_quadrant(quadrant.low, f*TWO_PI, f*TWO_PI_TAIL);
 }
 
 /* (cos x, sin x) (1.6 / 1.6 ulp to |x| = 7, 2.6 / 2.6 beyond), x in radians, |x| < 1000 / 1e5; pi/2 is taken off
  * in three parts, so that the zeros keep their relative accuracy */
 KERNEL real2 kcossin(real x)
 {
-    real shifted = x*(2.0f*INV_PI) + ROUND_TO_INTEGER;
-    real n       = shifted - ROUND_TO_INTEGER;
-    real r       = (x - n*HALF_PI_HIGH) - n*HALF_PI_MIDDLE;
-    return cossin_in_quadrant(bits_of(shifted), r - n*HALF_PI_LOW, 0.0f);
+    real_integer quadrant = round_to_integer(x*(2.0f*INV_PI));
+    real n                = quadrant.n;
+    real r                = (x - n*HALF_PI_HIGH) - n*HALF_PI_MIDDLE;
+    return cossin_in_quadrant(quadrant.low, r - n*HALF_PI_LOW, 0.0f);
 }
 
 KERNEL real kcos(real x) { return kcossin(x).x; }

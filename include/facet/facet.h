@@ -19,6 +19,7 @@
 #pragma once
 
 #include <stddef.h>
+#include <stdint.h>
 
 #ifdef __cplusplus
 extern "C" {
@@ -141,6 +142,14 @@ FACET_API facet_bsdf facet_bsdf_metallic_roughness(const float base_color[3], fl
 
 /* The model glass straight from its values.  ior in [0.1, 10], tint in [0,1]. */
 FACET_API facet_bsdf facet_bsdf_glass(float ior, const float tint[3], int is_thin);
+
+/* The prepared parameters as 32-bit words, for the shaders of share/facet/glsl (docs/shaders.md): fills words[0..n-1],
+ * with 0 past the last, and returns how many there are.  words may be NULL if n is 0. */
+FACET_API size_t facet_bsdf_words(const facet_bsdf *bsdf, size_t n, uint32_t *words);
+
+/* The kernel that serves the material, e.g. "microfacet" for ggx: what its functions in facet.glsl are called by; static
+ * storage. */
+FACET_API const char *facet_bsdf_kernel(const facet_bsdf *bsdf);
 
 /* What a sample is.  A delta sample (smooth glass, mirrors) is one of finitely many directions: its
  * pdf is the probability of that direction [1], and eval and pdf of any direction are 0. */
