@@ -108,7 +108,7 @@ static inline real3 gather(facet_dirs d, size_t i)
         break;
 KERNEL void microfacet_sample_staged(microfacet_params p, size_t n, facet_dirs wo, facet_dirs u, facet_samples s);
 FACET_KERNELS(LOOP_ROWS)
-#include "batch_staged.h"
+#include "batch_staged_text.h"
 
 #define EVAL_ENTRY(name) name##_eval_loop,
 #define PDF_ENTRY(name) name##_pdf_loop,

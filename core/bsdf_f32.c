@@ -29,7 +29,7 @@ facet_bsdf facet_bsdf_glass(float ior, const float tint[3], int is_thin)
 
 size_t facet_bsdf_words(const facet_bsdf *bsdf, size_t n, uint32_t *words)
 {
-#define SIZE_ROW(name, variants) [KERNEL_##name] = sizeof(name##_params),
+#define SIZE_ROW(name) [KERNEL_##name] = sizeof(name##_params),
     static const size_t sizes[] = {FACET_KERNELS(SIZE_ROW)};
     const prepared *p = content(bsdf);
     const size_t size = sizes[p->kernel];
@@ -41,7 +41,7 @@ size_t facet_bsdf_words(const facet_bsdf *bsdf, size_t n, uint32_t *words)
 
 const char *facet_bsdf_kernel(const facet_bsdf *bsdf)
 {
-#define KERNEL_NAME_ROW(name, variants) [KERNEL_##name] = #name,
+#define KERNEL_NAME_ROW(name) [KERNEL_##name] = #name,
     static const char *const names[] = {FACET_KERNELS(KERNEL_NAME_ROW)};
     return names[content(bsdf)->kernel];
 }

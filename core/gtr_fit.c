@@ -8,7 +8,8 @@
  * The power is one function outside the segment [alpha^2, 1], so the integral over the segment is one around it; and
  * that one exists for every gamma.  In p = sqrt(a) the segment [alpha, 1] lies in the right half plane, on whose border
  * sqrt(mu^2 + p^2) is singular whatever mu is.  Gauss's transformation P = (p + alpha/p)/2 maps the half plane to
- * itself, twice, and the segment to [sqrt(alpha), (1 + alpha)/2]; after a few of them it is nearly a point, around which
+ * itself, twice, and the segment to [sqrt(alpha), (1 + alpha)/2]; after a few of them it is nearly a point, around
+ * which
  * circles are best.  The trapezoidal rule on a circle converges geometrically, and its nodes are carried back.  The
  * function 1 of the segment has no integral around it, so 1 is taken off the power, and gamma = 1 is a limit.
  *

@@ -24,6 +24,7 @@
 #include "model/model_lambert.h"
 #include "model/model_metallic_roughness.h"
 #include "model/model_phong.h"
+#include "model/model_vray.h"
 #include "model/model_ward.h"
 
 /* X(name) */
@@ -55,4 +56,6 @@
     X(cs500, microfacet, "the course's BRDF as it is printed: Kd/pi + D G F/(4 cos_i cos_o), G = G1 G1",               \
       "CS500 Project 3, its mistakes corrected")                                                                       \
     X(disney, disney, "Disney's principled model: diffuse, sheen, anisotropic GGX and a clearcoat of GTR1",            \
-      "Burley 2012, section 5, appendix B and the addenda of 2014")
+      "Burley 2012, section 5, appendix B and the addenda of 2014")                                                    \
+    X(vray, microfacet, "gtr by V-Ray's sharpness and tail falloff, with its published masking",                       \
+      "Dimov 2015; Disney 2012, appendix B")

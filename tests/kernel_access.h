@@ -15,7 +15,8 @@ typedef enum kernel_distribution {
     KERNEL_GGX
 } kernel_distribution;
 
-/* What is known of G1 of gtr: from the polynomials that materials use, by quadrature for each element, and as published. */
+/* What is known of G1 of gtr: from the polynomials that materials use, by quadrature for each element, and as
+ * published. */
 typedef enum kernel_masking { KERNEL_PREPARED, KERNEL_DIRECT, KERNEL_PUBLISHED } kernel_masking;
 
 typedef struct kernel_access {

@@ -55,8 +55,8 @@ def rows(name, pattern, example):
 
 def table():
     """The kernels, and the models, each with its kernel, in order."""
-    kernels = [name for name, _ in rows("FACET_KERNELS", r"\bX\((\w+), (\d+)\)", "X(name, variants)")]
-    models = dict(rows("FACET_MODELS", r"\bX\((\w+), (\w+), \"", 'X(name, kernel, "summary", ...)'))
+    kernels = rows("FACET_KERNELS", r"\bX\((\w+)\)", "X(name)")
+    models = dict(rows("FACET_MODELS", r"\bX\((\w+), (\w+),[\s\\]*\"", 'X(name, kernel, "summary", ...)'))
     for name, kernel in models.items():
         if kernel not in kernels:
             raise KernelError(f"core/model_table.h: the kernel {kernel} of {name} has no row in FACET_KERNELS")

@@ -31,7 +31,8 @@ typedef struct distribution {
     gtr_spline spline; /* of the published masking of gtr */
 } distribution;
 
-/* The D at the direction of m, 1/sr, that normals are drawn with and whose Lambda is known; m need not be a unit vector. */
+/* The D at the direction of m, 1/sr, that normals are drawn with and whose Lambda is known; m need not be a unit
+ * vector. */
 KERNEL real distribution_drawn_D(distribution d, real3 m)
 {
     return d.kind == NDF_GGX        ? ggx_D(m, d.alpha_x, d.alpha_y)

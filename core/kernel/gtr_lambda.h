@@ -89,8 +89,8 @@ KERNEL real gtr_x_minus_atan(real x)
     return is_far ? (x - HALF_PI) + (v - near) : near;
 }
 
-/* Gauss's rule of 16 nodes for the weight (1 + x)^2 and the angle omega in [0, pi/2]: sin^2, cos^2, weight sin(2 omega).
- * Roots of Jacobi's polynomial P_16^(0,2), computed with 40 digits. */
+/* Gauss's rule of 16 nodes for the weight (1 + x)^2 and the angle omega in [0, pi/2]: sin^2, cos^2, weight sin(2
+ * omega). Roots of Jacobi's polynomial P_16^(0,2), computed with 40 digits. */
 typedef struct gtr_direct_node {
     real sin2, cos2, weight;
 } gtr_direct_node;
@@ -116,8 +116,8 @@ static const gtr_direct_node gtr_direct_nodes[16] = {
 
 /* Lambda for an alpha and a gamma of their own.  G1 is exact to 5e-7: integrated by parts,
  *     T = c/k0 Int s^(1 - gamma) (e - mu atan(e/mu)) dy,  y = ln s from ln s(mu^2) to 0,
- * with e^2 = r^2 - mu^2 = (mu^2 + alpha^2) (e^dy - 1)/(1 - s), dy from the lower end.  dy = Y sin^2/(1 + rho cos^2) in the
- * angle omega takes away the roots at both ends, and rho keeps the nodes where a large gamma puts the mass. */
+ * with e^2 = r^2 - mu^2 = (mu^2 + alpha^2) (e^dy - 1)/(1 - s), dy from the lower end.  dy = Y sin^2/(1 + rho cos^2)
+ * in the angle omega takes away the roots at both ends, and rho keeps the nodes where a large gamma puts the mass. */
 KERNEL real gtr_Lambda_direct(real alpha, real gamma, real mu)
 {
     real a       = kmin(alpha, GTR_ROUGHEST);

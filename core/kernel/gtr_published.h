@@ -1,5 +1,5 @@
-/* gtr_published.h: Smith's G1 of GTR as the V-Ray paper computes it, to be compared: its closed forms for gamma = 0, 1, 2,
- * 3, 4, and for other gammas a natural cubic spline through these five, gamma beyond 4 counting as 4.
+/* gtr_published.h: Smith's G1 of GTR as the V-Ray paper computes it, to be compared: its closed forms for gamma = 0,
+ * 1, 2, 3, 4, and for other gammas a natural cubic spline through these five, gamma beyond 4 counting as 4.
  *
  * [vray] Dimov, Deriving the Smith shadowing function G1 for gamma in (0, 4], 2015, sections 4 to 6.
  * The closed forms are exact.  The spline is off by up to 0.17, the clamp by up to 0.44; some values exceed 1 by 0.04.

@@ -41,7 +41,8 @@ KERNEL real gtr_minus_log_s(gtr_shape g, real t0, real t1)
 }
 
 /* Where a share xi of the normals beyond -ln s = Y0 lies before: Y0 - Y and Y.  P(beyond Y) is proportional to
- * e^((gamma - 1) Y) - 1, [disney, 3, 5, 7, 9] from either end, so that both results are accurate where they are small. */
+ * e^((gamma - 1) Y) - 1, [disney, 3, 5, 7, 9] from either end, so that both results are accurate where they are
+ * small. */
 KERNEL real2 gtr_quantile(real excess, real Y0, real xi)
 {
     real all     = excess*Y0;
@@ -209,8 +210,8 @@ KERNEL real3 gtr_sample_tail(gtr_view v, real ux, real uy, real uz, gtr_shape g)
     return gtr_turn(v, r*cos, r*sin, g);
 }
 
-/* A normal with density D(wm) (wo.wm)+/sigma(wo), of any length; ux, uy, uz: uniform.  The tail costs ten times the body
- * and is rare; batches draw it apart (batch_staged.h). */
+/* A normal with density D(wm) (wo.wm)+/sigma(wo), of any length; ux, uy, uz: uniform.  The tail costs ten times the
+ * body and is rare; batches draw it apart (batch_staged.h). */
 KERNEL real3 gtr_sample_vndf(real3 wo, real ux, real uy, real uz, gtr_shape g)
 {
     gtr_view v = gtr_view_of(wo, g);

@@ -75,8 +75,8 @@ KERNEL real log_of_split(real_split x)
  * -87.34 / -708.4. */
 KERNEL real klog(real x) { return log_of_split(split_binary(kmax(x, REAL_MIN))); }
 
-/* ln x of an x >= REAL_MIN whose difference from 1 is known better than x - 1 gives it; relative to the result (1.5 / 1.5
- * ulp). */
+/* ln x of an x >= REAL_MIN whose difference from 1 is known better than x - 1 gives it; relative to the result (1.5
+ * / 1.5 ulp). */
 KERNEL real klog_near_one(real x, real x_minus_1)
 {
     real_split split = split_binary(x);

@@ -141,7 +141,7 @@ KERNEL bsdf_sample microfacet_sample_mixture(microfacet_params p, real3 wo, real
 }
 
 /* What is uniform again of the number that chooses the lobe, where it chooses the specular one. */
-KERNEL real microfacet_rest_of(microfacet_params p, real u)
+KERNEL real microfacet_number_left(microfacet_params p, real u)
 {
     return p.has_diffuse ? (u - p.p_diffuse)/(1 - p.p_diffuse) : u;
 }
@@ -155,7 +155,7 @@ KERNEL bsdf_sample microfacet_sample_about(microfacet_params p, real3 wo, real3 
 KERNEL bsdf_sample microfacet_sample(microfacet_params p, real3 wo, real3 u)
 {
     real3 m = select3(p.sampling == SAMPLING_NDF, distribution_sample_ndf(p.d, u.x, u.y),
-                      distribution_sample_vndf(p.d, wo, u.x, u.y, microfacet_rest_of(p, u.z)));
+                      distribution_sample_vndf(p.d, wo, u.x, u.y, microfacet_number_left(p, u.z)));
     return microfacet_sample_about(p, wo, u, m);
 }
 
@@ -191,10 +191,10 @@ KERNEL int microfacet_variant(microfacet_params p)
     int is_published = p.d.masking == MASKING_PUBLISHED;
     int is_usual     = (is_ggx | (p.d.kind == NDF_GTR)) & (p.F.kind == FRESNEL_SCHLICK) & (p.g2 == G2_CORRELATED);
     int one          = (is_metal & is_ggx) ? MICROFACET_METAL : (is_usual ? MICROFACET_USUAL : MICROFACET_PURE);
-    int all     = is_published & !is_ggx ? MICROFACET_PUBLISHED : (is_published ? MICROFACET_RARE : MICROFACET_NDF);
-    int visible = is_ggx & !is_published ? MICROFACET_MIXED : MICROFACET_RARE;
-    int several = is_metal | distribution_is_disney(p.d) ? MICROFACET_RARE
-                                                         : (p.sampling == SAMPLING_NDF ? all : visible);
+    int all     = (is_published & !is_ggx) ? MICROFACET_PUBLISHED : (is_published ? MICROFACET_RARE : MICROFACET_NDF);
+    int visible = (is_ggx & !is_published) ? MICROFACET_MIXED : MICROFACET_RARE;
+    int several = (is_metal | distribution_is_disney(p.d)) ? MICROFACET_RARE
+                                                           : (p.sampling == SAMPLING_NDF ? all : visible);
     return MICROFACET_GROUPS*p.d.kind + (p.is_one ? one : several);
 }
 
@@ -227,6 +227,8 @@ KERNEL microfacet_params microfacet_fix(microfacet_params p, int variant)
 /* Of the variants, those that microfacet_variant gives: of ggx, beckmann, phong and gtr. */
 #define EACH_VARIANT_microfacet(CASE, name)                                                                            \
     CASE(name, 0)                                                                                                      \
-    CASE(name, 1) CASE(name, 2) CASE(name, 3) CASE(name, 4) CASE(name, 6) CASE(name, 10) CASE(name, 11) CASE(name, 12) \
-        CASE(name, 13) CASE(name, 17) CASE(name, 18) CASE(name, 19) CASE(name, 20) CASE(name, 21) CASE(name, 24)       \
-            CASE(name, 25) CASE(name, 26) CASE(name, 27)
+    CASE(name, 1)                                                                                                      \
+    CASE(name, 2)                                                                                                      \
+    CASE(name, 3) CASE(name, 4) CASE(name, 6) CASE(name, 10) CASE(name, 11) CASE(name, 12) CASE(name, 13)              \
+        CASE(name, 17) CASE(name, 18) CASE(name, 19) CASE(name, 20) CASE(name, 21) CASE(name, 24) CASE(name, 25)       \
+            CASE(name, 26) CASE(name, 27)

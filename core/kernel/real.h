@@ -17,7 +17,8 @@
  * that is left in a loop keeps the loop from vectorising. */
 #define KERNEL static inline __attribute__((unused, always_inline))
 
-/* In files of loops over batches (batch_text.h sets FACET_LOOPS) a large kernel is inlined too, and its loops of constant
+/* In files of loops over batches (batch_text.h sets FACET_LOOPS) a large kernel is inlined too, and its loops of
+ * constant
  * length are unrolled: left as loops, they keep the one around from vectorising.  Elsewhere one copy will do. */
 #ifdef FACET_LOOPS
 #define LARGE_KERNEL KERNEL

@@ -49,10 +49,12 @@ static inline gtr_spline gtr_spline_at(real gamma)
     return (gtr_spline){weight[0], weight[1], weight[2], weight[3], weight[4]};
 }
 
-/* D at the normal of Disney's anisotropic D.  Along each azimuth (alpha_x cos psi, alpha_y sin psi) of slope space it is a
+/* D at the normal of Disney's anisotropic D.  Along each azimuth (alpha_x cos psi, alpha_y sin psi) of slope space
+ * it is a
  * GTR of the roughness^2 a = (alpha_x cos psi)^2 + (alpha_y sin psi)^2, so that 1/D(n) is 2 alpha_x alpha_y times the
  * integral of (1 - a^(gamma - 1))/((gamma - 1)(1 - a)) over a quarter turn of psi.  The trapezoidal rule is spread by
- * tan psi = sqrt(alpha_x/alpha_y) tan chi; its error falls as e^(-4 POINTS atanh(sqrt(ratio))), ratio that of the alphas. */
+ * tan psi = sqrt(alpha_x/alpha_y) tan chi; its error falls as e^(-4 POINTS atanh(sqrt(ratio))), ratio that of the
+ * alphas. */
 static inline real gtr_prepare_disney(gtr_shape g)
 {
     enum { POINTS = 2048 };

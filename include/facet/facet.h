@@ -147,8 +147,8 @@ FACET_API facet_bsdf facet_bsdf_glass(float ior, const float tint[3], int is_thi
  * with 0 past the last, and returns how many there are.  words may be NULL if n is 0. */
 FACET_API size_t facet_bsdf_words(const facet_bsdf *bsdf, size_t n, uint32_t *words);
 
-/* The kernel that serves the material, e.g. "microfacet" for ggx: what its functions in facet.glsl are called by; static
- * storage. */
+/* The kernel that serves the material, e.g. "microfacet" for ggx: what its functions in facet.glsl are called by;
+ * static storage. */
 FACET_API const char *facet_bsdf_kernel(const facet_bsdf *bsdf);
 
 /* What a sample is.  A delta sample (smooth glass, mirrors) is one of finitely many directions: its

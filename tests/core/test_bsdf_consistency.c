@@ -93,8 +93,8 @@ static void density_and_weights(const any_bsdf *bsdf, const double wi[3], const 
 }
 
 /* eval/pdf at the returned wi.  A sample may hold the density of the normal that it drew, while its wi is rounded: a
- * component of wi is off by 3 eps at most (a product, a difference of numbers up to 2, a quotient), so that the values may
- * differ by what such steps along each axis change, besides 5 eps of their own arithmetic. */
+ * component of wi is off by 3 eps at most (a product, a difference of numbers up to 2, a quotient), so that the
+ * values may differ by what such steps along each axis change, besides 5 eps of their own arithmetic. */
 static void check_weight(const any_bsdf *bsdf, const double wo[3], const double u[3])
 {
     const facet_sample64 s = any_sample(bsdf, wo, u);

@@ -55,7 +55,8 @@ static void all_normals_and_mixtures_have_their_density(void **state)
 static void a_gamma_off_by_3_hundredths_is_found(void **state)
 {
     (void)state;
-    const any_bsdf drawn = any_bsdf_of("gtr alpha=.3 gamma=1.5", 0), claimed = any_bsdf_of("gtr alpha=.3 gamma=1.53", 1);
+    const any_bsdf drawn = any_bsdf_of("gtr alpha=.3 gamma=1.5", 0);
+    const any_bsdf claimed = any_bsdf_of("gtr alpha=.3 gamma=1.53", 1);
     double wo[3];
     any_direction(.2, 1, wo);
     const float view[3] = {(float)wo[0], (float)wo[1], (float)wo[2]};

@@ -1,7 +1,7 @@
 /* test_gtr_identities.c: integrals and special cases of GTR, in both precisions.
  *
- * The integrals run over y = ln(tan(theta)/mu), in which D is analytic for |Im y| < pi/2 and falls exponentially, so that
- * the trapezoidal rule of step 1/8 is exact to 1e-14.
+ * The integrals run over y = ln(tan(theta)/mu), in which D is analytic for |Im y| < pi/2 and falls exponentially, so
+ * that the trapezoidal rule of step 1/8 is exact to 1e-14.
  * SPDX-License-Identifier: MIT */
 #include <float.h>
 #include <math.h>
@@ -210,12 +210,9 @@ static void nothing_is_ever_nan(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(D_integrates_to_one),
-        cmocka_unit_test(anisotropic_D_integrates_to_one),
-        cmocka_unit_test(visible_normals_fill_the_view),
-        cmocka_unit_test(gamma_2_is_ggx),
-        cmocka_unit_test(gamma_1_has_its_closed_form),
-        cmocka_unit_test(nothing_is_ever_nan),
+        cmocka_unit_test(D_integrates_to_one),           cmocka_unit_test(anisotropic_D_integrates_to_one),
+        cmocka_unit_test(visible_normals_fill_the_view), cmocka_unit_test(gamma_2_is_ggx),
+        cmocka_unit_test(gamma_1_has_its_closed_form),   cmocka_unit_test(nothing_is_ever_nan),
     };
     return cmocka_run_group_tests_name("gtr_identities", tests, NULL, NULL);
 }

@@ -22,8 +22,8 @@ static const double G1_bounds[] = {1e-6, 1e-12}, Lambda_bounds[] = {1e-5, 1e-13}
 #define LEAST_LAMBDA 1e-30
 
 static const double alphas[] = {1e-4, 3e-4, 1e-3, .01, .03, .1, .3, .6, .9, .99, .9999, 1};
-static const double gammas[] = {1e-3, .05, .3, .7, .9, .999, 1, 1.001, 1.1,   1.2, 1.3,   1.5, 1.8,
-                                2,    2.2, 2.7, 3, 3.6, 3.999, 4, 4.001, 6.3, 10, 14.5, 20};
+static const double gammas[] = {1e-3, .05, .3,  .7, .9,  .999,  1, 1.001, 1.1, 1.2, 1.3,  1.5, 1.8,
+                                2,    2.2, 2.7, 3,  3.6, 3.999, 4, 4.001, 6.3, 10,  14.5, 20};
 /* cotangents in units of alpha, and by themselves */
 static const double scaled_mus[] = {1e-6, .1, .3, 1, 3}, mus[] = {.03, .3, 1, 3, 30, 1e3, 1e9};
 enum {
@@ -84,8 +84,8 @@ static double survival(double t, double alpha, double gamma)
     return gamma == 1 ? -log_s/L : expm1((1 - gamma)*log_s)/expm1((gamma - 1)*L);
 }
 
-/* Lambda by the trapezoidal rule in y = ln(e/mu), e^2 = r^2 - mu^2: Lambda = 1/(pi mu) Int S(r) e^2/r^2 de.  Steps of 1/8
- * are exact to 1e-14 for gamma up to 20. */
+/* Lambda by the trapezoidal rule in y = ln(e/mu), e^2 = r^2 - mu^2: Lambda = 1/(pi mu) Int S(r) e^2/r^2 de.  Steps
+ * of 1/8 are exact to 1e-14 for gamma up to 20. */
 static double reference_G1(double alpha, double gamma, double mu)
 {
     const double h = .125, top = fmax(0, -log(mu)) + 37;
@@ -109,18 +109,21 @@ static void G1_agrees_with_quadrature_over_the_whole_domain(void **state)
                     const double mu = rounded(m < N_SCALED ? alpha*scaled_mus[m] : mus[m - N_SCALED], k);
                     const double want = reference_G1(alpha, gamma, mu);
                     for (int which = KERNEL_PREPARED; which <= (k ? KERNEL_PREPARED : KERNEL_DIRECT); which++) {
-                        const double error = fabs(precisions[k]->gtr_G1((kernel_masking)which, alpha, gamma, mu) - want);
+                        const double G1 = precisions[k]->gtr_G1((kernel_masking)which, alpha, gamma, mu);
+                        const double error = fabs(G1 - want);
                         worst[k][which] = fmax(worst[k][which], error);
                         if (!(error <= G1_bounds[k]))
-                            fail_msg("alpha %g gamma %g mu %g, %s, form %d: %.3g", alpha, gamma, mu, precisions[k]->name,
-                                     which, error);
+                            fail_msg("alpha %g gamma %g mu %g, %s, form %d: %.3g", alpha, gamma, mu,
+                                     precisions[k]->name, which, error);
                     }
                 }
     print_message("  G1: float %.2g, direct %.2g; double %.2g\n", worst[0][0], worst[0][1], worst[1][0]);
 }
 
-/* A GTR of gamma < 2 is a mixture of GGX of roughness^2 a, and Lambda mixes linearly.  In tau = ln((a - alpha^2)/(1 - a))
- * the density is e^((2 - gamma) tau)/((1 + e^tau)(alpha^2 + e^tau)), which the trapezoidal rule integrates to e^(-4 pi^2). */
+/* A GTR of gamma < 2 is a mixture of GGX of roughness^2 a, and Lambda mixes linearly.  In tau = ln((a - alpha^2)/(1
+ * - a))
+ * the density is e^((2 - gamma) tau)/((1 + e^tau)(alpha^2 + e^tau)), which the trapezoidal rule integrates to e^(-4
+ * pi^2). */
 static double mixed_G1(double alpha, double gamma, double mu)
 {
     const double h = .5, a0 = alpha*alpha;
@@ -164,13 +167,13 @@ static void integer_gammas_have_their_closed_forms(void **state)
                     const double A = hypot(mu, rounded(alphas[a], k));
                     if (!(fabs(exact - closed) <= G1_bounds[k]) ||
                         (gamma == 2 && !(fabs(exact - 2*mu/(A + mu)) <= G1_bounds[k])))
-                        fail_msg("alpha %g gamma %d mu %g, %s: %a, closed %a", alphas[a], gamma, mu, precisions[k]->name,
-                                 exact, closed);
+                        fail_msg("alpha %g gamma %d mu %g, %s: %a, closed %a", alphas[a], gamma, mu,
+                                 precisions[k]->name, exact, closed);
                 }
 }
 
-/* Between the knots a natural cubic spline: second derivatives 0 at 0 and 4 and continuous at the knots, by differences;
- * beyond 4 as at 4.  The two largest known errors of the published scheme. */
+/* Between the knots a natural cubic spline: second derivatives 0 at 0 and 4 and continuous at the knots, by
+ * differences; beyond 4 as at 4.  The two largest known errors of the published scheme. */
 static void published_masking_is_the_papers_spline(void **state)
 {
     (void)state;
@@ -179,12 +182,14 @@ static void published_masking_is_the_papers_spline(void **state)
     for (int knot = 1; knot < 4; knot++) {
         double y[9];
         for (int i = 0; i < 9; i++) y[i] = G1(KERNEL_PUBLISHED, alpha, knot + (i - 4)*h, mu);
-        const double left = (2*y[4] - 5*y[3] + 4*y[2] - y[1])/(h*h), right = (2*y[4] - 5*y[5] + 4*y[6] - y[7])/(h*h);
+        const double left = (2*y[4] - 5*y[3] + 4*y[2] - y[1])/(h*h),
+                     right = (2*y[4] - 5*y[5] + 4*y[6] - y[7])/(h*h);
         assert_true(fabs(left - right) < 1e-6 && fabs(right) > 1e-3);
         assert_true(fabs((y[5] - y[3]) - (y[6] - y[2])/2) < 1e-6);
     }
     const double end = (2*G1(KERNEL_PUBLISHED, alpha, 4, mu) - 5*G1(KERNEL_PUBLISHED, alpha, 4 - h, mu) +
-                        4*G1(KERNEL_PUBLISHED, alpha, 4 - 2*h, mu) - G1(KERNEL_PUBLISHED, alpha, 4 - 3*h, mu))/(h*h);
+                        4*G1(KERNEL_PUBLISHED, alpha, 4 - 2*h, mu) - G1(KERNEL_PUBLISHED, alpha, 4 - 3*h, mu))/
+                       (h*h);
     assert_true(fabs(end) < 1e-6);
     assert_true(G1(KERNEL_PUBLISHED, alpha, 4, mu) == G1(KERNEL_PUBLISHED, alpha, 17, mu));
     const double clamped = G1(KERNEL_PREPARED, .6061, 10, .1199) - G1(KERNEL_PUBLISHED, .6061, 10, .1199);

@@ -22,7 +22,9 @@ DIRECTIVE = re.compile(r"^[ \t]*#[ \t]*(\w+)((?:\\\n|[^\n])*)", re.M)
 # What the preprocessor knows; every other name is not defined.
 DEFINED = {"FACET_REAL_IS_DOUBLE": "0"}
 # Macros that are words of the kernels' language and have no value.
-MARKS = ("KERNEL", "UNROLL", "FACET_REAL_IS_DOUBLE")
+MARKS = ("KERNEL", "LARGE_KERNEL", "UNROLL", "FACET_REAL_IS_DOUBLE")
+# How the C is compiled into loops, which a shader has none of: ONE_VARIANT(name).
+LOOPS_ONLY = ("ONE_VARIANT",)
 # Macros of the C library.
 LIBRARY = {"FLT_MAX": "3.40282347e+38f", "FLT_MIN": "1.17549435e-38f", "FLT_EPSILON": "1.1920929e-07f",
            "FACET_REAL_IS_DOUBLE": "0"}
@@ -181,8 +183,10 @@ class Source:
             return self.find_record(i)
         if text[0] == "typedef" and len(text) == 3 and t[i + 3].text == ";":
             return i + 4  # real and real_bits
-        if text[0] == "KERNEL":
+        if text[0] in ("KERNEL", "LARGE_KERNEL"):
             return self.find_function(i)
+        if text[0] in LOOPS_ONLY:
+            return self.close(i + 1, "(", ")") + 1
         if text[:2] == ["static", "const"]:
             return self.find_table(i)
         self.fail(t[i].start, f"`{t[i].text}`: a kernel file holds constants, tables, `typedef struct` and KERNEL "

@@ -1,11 +1,9 @@
-/* batch_staged.h: the batch loop that samples the visible normals of gtr in stages.  Included by batch_text.h.
+/* batch_staged_text.h: the batch loop that samples the visible normals of gtr in stages.  Included by batch_text.h.
  *
  * The tail of the visible normals (kernel/gtr_sample.h) costs ten times as much as the rest and is chosen for few
  * samples.  A block of samples is drawn as if there were no tail; those that belong to it are collected, drawn again
  * together, and put back; then all are completed.  The results are those of the single call, to the last bit.
  * SPDX-License-Identifier: MIT */
-#pragma once
-
 enum { STAGED_BLOCK = 512, STAGED_WIDTH = 16 }; /* the second: lanes of the widest vectors */
 
 typedef struct staged_vectors {
@@ -54,7 +52,7 @@ static void replace_tails(const microfacet_params *p, size_t n, const int *is_ta
         t.wo.z[k] = wo.z[i];
         t.u.x[k] = u.x[i];
         t.u.y[k] = u.y[i];
-        t.u.z[k] = microfacet_rest_of(*p, u.z[i]);
+        t.u.z[k] = microfacet_number_left(*p, u.z[i]);
     }
     draw_tails(&p->d.gtr, padded, &t);
     for (size_t k = 0; k < count; k++) {
@@ -77,7 +75,8 @@ KERNEL void sample_block(microfacet_params p, size_t n, facet_dirs wo, facet_dir
     _Pragma("omp simd") for (size_t i = 0; i < n; i++)
     {
         const gtr_view v = gtr_view_of(gather(wo, i), p.d.gtr);
-        const real3 normal = gtr_sample_body(v, gtr_rest_of(v, u.x[i]), u.y[i], microfacet_rest_of(p, u.z[i]), p.d.gtr);
+        const real3 normal = gtr_sample_body(v, gtr_rest_of(v, u.x[i]), u.y[i], microfacet_number_left(p, u.z[i]),
+                                             p.d.gtr);
         m.x[i] = normal.x;
         m.y[i] = normal.y;
         m.z[i] = normal.z;
