@@ -70,6 +70,7 @@ static facet_dirs dirs_from(facet_dirs d, size_t first)
 /* At most STAGED_BLOCK samples. */
 KERNEL void sample_block(microfacet_params p, size_t n, facet_dirs wo, facet_dirs u, facet_samples to)
 {
+    const microfacet_params kept = p; /* p itself stays where the compiler knows its constants */
     staged_vectors m;
     int is_tail[STAGED_BLOCK];
     _Pragma("omp simd") for (size_t i = 0; i < n; i++)
@@ -82,7 +83,7 @@ KERNEL void sample_block(microfacet_params p, size_t n, facet_dirs wo, facet_dir
         m.z[i] = normal.z;
         is_tail[i] = gtr_is_tail(v, u.x[i]);
     }
-    replace_tails(&p, n, is_tail, wo, u, &m);
+    replace_tails(&kept, n, is_tail, wo, u, &m);
     _Pragma("omp simd") for (size_t i = 0; i < n; i++)
     {
         const bsdf_sample drawn = microfacet_sample_about(p, gather(wo, i), gather(u, i),
