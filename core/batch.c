@@ -29,7 +29,7 @@ static const batch_loops *available(size_t i)
 /* Chosen on first use; every thread would choose the same. */
 static _Atomic(const batch_loops *) chosen;
 
-static const batch_loops *loops(void)
+const batch_loops *batch_loops_chosen(void)
 {
     const batch_loops *table = atomic_load_explicit(&chosen, memory_order_relaxed);
     if (!table) {
@@ -58,23 +58,23 @@ facet_status facet_isa_force(const char *name)
 void facet_bsdf_eval_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f)
 {
     const prepared *p = (const prepared *)(const void *)bsdf;
-    loops()->eval[p->kernel](p, n, wi, wo, f);
+    batch_loops_chosen()->eval[p->kernel](p, n, wi, wo, f);
 }
 
 void facet_bsdf_pdf_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wi, facet_dirs wo, float *pdf)
 {
     const prepared *p = (const prepared *)(const void *)bsdf;
-    loops()->pdf[p->kernel](p, n, wi, wo, pdf);
+    batch_loops_chosen()->pdf[p->kernel](p, n, wi, wo, pdf);
 }
 
 void facet_bsdf_eval_pdf_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f, float *pdf)
 {
     const prepared *p = (const prepared *)(const void *)bsdf;
-    loops()->eval_pdf[p->kernel](p, n, wi, wo, f, pdf);
+    batch_loops_chosen()->eval_pdf[p->kernel](p, n, wi, wo, f, pdf);
 }
 
 void facet_bsdf_sample_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wo, facet_dirs u, facet_samples samples)
 {
     const prepared *p = (const prepared *)(const void *)bsdf;
-    loops()->sample[p->kernel](p, n, wo, u, samples);
+    batch_loops_chosen()->sample[p->kernel](p, n, wo, u, samples);
 }

@@ -15,6 +15,8 @@ extern "C" {
 
 /* Loops by kernel, in the order of model_table.h. */
 struct prepared;
+struct gtr_mixture;
+struct gtr_directions;
 typedef struct batch_loops {
     const char *name;
     void (*eval[BATCH_KERNELS])(const struct prepared *p, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f);
@@ -23,7 +25,12 @@ typedef struct batch_loops {
                                     float *pdf);
     void (*sample[BATCH_KERNELS])(const struct prepared *p, size_t n, facet_dirs wo, facet_dirs u,
                                   facet_samples samples);
+    /* For preparing gtr: gtr_find_excess of gtr_mixture.h. */
+    void (*gtr_excess)(const struct gtr_mixture *mixture, struct gtr_directions *directions);
 } batch_loops;
+
+/* The table in use. */
+const batch_loops *batch_loops_chosen(void);
 
 extern const batch_loops facet_batch_base;
 #if defined(__x86_64__)

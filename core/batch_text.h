@@ -7,6 +7,7 @@
 #define FACET_REAL_IS_DOUBLE 0
 #define FACET_LOOPS
 #include "batch.h"
+#include "gtr_mixture.h"
 #include "model_table.h"
 #include "prepared.h"
 
@@ -110,6 +111,11 @@ KERNEL void microfacet_sample_staged(microfacet_params p, size_t n, facet_dirs w
 FACET_KERNELS(LOOP_ROWS)
 #include "batch_staged_text.h"
 
+static void gtr_excess_loop(const gtr_mixture *mixture, gtr_directions *directions)
+{
+    gtr_find_excess(mixture, directions);
+}
+
 #define EVAL_ENTRY(name) name##_eval_loop,
 #define PDF_ENTRY(name) name##_pdf_loop,
 #define EVAL_PDF_ENTRY(name) name##_eval_pdf_loop,
@@ -120,4 +126,5 @@ const batch_loops BATCH_LOOPS = {
     .pdf = {FACET_KERNELS(PDF_ENTRY)},
     .eval_pdf = {FACET_KERNELS(EVAL_PDF_ENTRY)},
     .sample = {FACET_KERNELS(SAMPLE_ENTRY)},
+    .gtr_excess = gtr_excess_loop,
 };

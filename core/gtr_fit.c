@@ -9,18 +9,20 @@
  * that one exists for every gamma.  In p = sqrt(a) the segment [alpha, 1] lies in the right half plane, on whose border
  * sqrt(mu^2 + p^2) is singular whatever mu is.  Gauss's transformation P = (p + alpha/p)/2 maps the half plane to
  * itself, twice, and the segment to [sqrt(alpha), (1 + alpha)/2]; after a few of them it is nearly a point, around
- * which
- * circles are best.  The trapezoidal rule on a circle converges geometrically, and its nodes are carried back.  The
- * function 1 of the segment has no integral around it, so 1 is taken off the power, and gamma = 1 is a limit.
+ * which circles are best.  The trapezoidal rule on a circle converges geometrically, and its nodes are carried back.
+ * The function 1 has no integral around the segment, so 1 is taken off the power, and gamma = 1 is a limit.
  *
  * Everything is +-*, /, square roots and core/kernel/kmath.h in double: the same bits on every processor.
  * SPDX-License-Identifier: MIT */
 #define FACET_REAL_IS_DOUBLE 1
 #include "gtr_fit.h"
 
+#include "batch.h"
+#include "gtr_mixture.h"
+
 #include "kernel/kmath.h"
 
-enum { LEVELS = 4, NODES = 128, POINTS = GTR_TERMS };
+enum { LEVELS = 4, NODES = GTR_NODES, POINTS = GTR_POINTS };
 
 /* Tuned so that G1 is exact to 1e-8 (decay 18) and 1e-14 (decay 34) with the fewest nodes. */
 #define LARGEST_EXTENT 0.12
@@ -36,16 +38,24 @@ enum { LEVELS = 4, NODES = 128, POINTS = GTR_TERMS };
 #define DOUBLE_RANGE 36.0             /* ... and 1e-15 */
 #define LEAST_EXCESS 1e-16            /* of gamma - 1, in place of 0 */
 
-/* The nodes a in the upper half plane, times their weights for a/(sqrt(mu^2 + a) + mu). */
-typedef struct mixture {
-    int n;
-    double re[NODES], im[NODES];     /* a */
-    double b_re[NODES], b_im[NODES]; /* a w; the sum over the nodes of Im w is 1 */
-} mixture;
-
 typedef struct complex_number {
     double re, im;
 } complex_number;
+
+typedef struct complex_array {
+    double re[NODES], im[NODES];
+} complex_array;
+
+static inline complex_number get(const complex_array *a, int j)
+{
+    return (complex_number){a->re[j], a->im[j]};
+}
+
+static inline void put(complex_array *a, int j, complex_number x)
+{
+    a->re[j] = x.re;
+    a->im[j] = x.im;
+}
 
 static inline complex_number times(complex_number a, complex_number b)
 {
@@ -68,7 +78,7 @@ static inline complex_number root(complex_number a)
 
 /* The nodes of a circle about the segment [low, high] of p, moved outwards by `share` of the way to the border of the
  * half plane, exact to e^-decay.  node: p, step: i times the derivative of ln p by the angle. */
-static int ring(double low, double high, double share, double decay, complex_number *node, complex_number *step)
+static int ring(double low, double high, double share, double decay, complex_array *node, complex_array *step)
 {
     double mean[LEVELS];
     int levels = 0;
@@ -89,20 +99,20 @@ static int ring(double low, double high, double share, double decay, complex_num
         const complex_number z = {radius*turn.x, radius*turn.y}, z2 = times(z, z);
         const complex_number up = {1 + z.re, z.im}, down = {1 - z.re, -z.im};
         const complex_number p = over(up, down);
-        node[j] = (complex_number){centre*p.re, centre*p.im};
-        step[j] = over((complex_number){-2*z.im, 2*z.re}, (complex_number){1 - z2.re, -z2.im});
+        put(node, j, (complex_number){centre*p.re, centre*p.im});
+        put(step, j, over((complex_number){-2*z.im, 2*z.re}, (complex_number){1 - z2.re, -z2.im}));
     }
     for (int level = levels - 1; level >= 0; level--) {
         const double g2 = mean[level]*mean[level];
         for (int j = 0; j < n; j++) {
-            const complex_number P = node[j], P2 = times(P, P);
+            const complex_number P = get(node, j), P2 = times(P, P);
             const complex_number r = root((complex_number){P2.re - g2, P2.im});
             const complex_number p = {P.re + r.re, P.im + r.im}, q = over((complex_number){g2, 0}, p);
-            const complex_number d = over(times(step[j], P), r);
-            node[j] = p;
-            step[j] = d;
-            node[n + j] = (complex_number){q.re, -q.im};
-            step[n + j] = (complex_number){d.re, -d.im};
+            const complex_number d = over(times(get(step, j), P), r);
+            put(node, j, p);
+            put(step, j, d);
+            put(node, n + j, (complex_number){q.re, -q.im});
+            put(step, n + j, (complex_number){d.re, -d.im});
         }
         n *= 2;
     }
@@ -111,57 +121,38 @@ static int ring(double low, double high, double share, double decay, complex_num
 
 /* The mixture, exact to about e^-decay.  A steep power is so small away from alpha^2 that the ring may cross the
  * segment there; it is large on a tight ring. */
-static void mix_ggx(double alpha, double gamma, double decay, mixture *m)
+static void mix_ggx(double alpha, double gamma, double decay, gtr_mixture *m)
 {
     const double reach = kmax(SHORTEST_REACH, decay/kmax(gamma - 1.5, REAL_MIN));
     const double high = kmin(1, alpha*kexp(0.5*kmin(reach, 40)));
     const double share = LARGEST_SHARE*kpow(2/kmax(gamma, 2), SHARE_POWER);
-    complex_number node[NODES], step[NODES];
-    m->n = ring(kmin(alpha, LARGEST_LOW*high), high, share, decay, node, step);
-    const double k0 = (1 - alpha)*(1 + alpha), excess = gamma - 1;
+    complex_array node, step;
+    const int n = ring(kmin(alpha, LARGEST_LOW*high), high, share, decay, &node, &step);
+    const double alpha2 = alpha*alpha, k0 = (1 - alpha)*(1 + alpha), excess = gamma - 1;
     const double power = kabs(excess) > LEAST_EXCESS ? excess : LEAST_EXCESS;
     double sum = 0;
 #pragma omp simd
-    for (int j = 0; j < m->n; j++) {
-        const complex_number a = times(node[j], node[j]);
+    for (int j = 0; j < n; j++) {
+        const complex_number p = get(&node, j), a = times(p, p);
         /* the logarithm of (a - 1)/(a - alpha^2) = 1 + t, and the power less 1 */
-        const complex_number t = over((complex_number){-k0, 0}, (complex_number){a.re - alpha*alpha, a.im});
+        const complex_number t = over((complex_number){-k0, 0}, (complex_number){a.re - alpha2, a.im});
         const double l_re = 0.5*klog1p(t.re*(2 + t.re) + t.im*t.im), l_im = katan2(t.im, 1 + t.re);
-        const real2 turn = kcossin(power*l_im), half = kcossin(0.5*power*l_im);
-        const double grown = kexpm1(power*l_re);
-        const complex_number f = {(grown*turn.x - 2*half.y*half.y)/power, (grown + 1)*turn.y/power};
-        const complex_number w = times(f, step[j]), b = times(w, a);
-        m->re[j] = a.re;
-        m->im[j] = a.im;
+        const real2 half = kcossin(0.5*power*l_im);
+        const double fall = 2*half.y*half.y, grown = kexpm1(power*l_re); /* 1 - cos */
+        const complex_number f = {(grown*(1 - fall) - fall)/power, 2*(grown + 1)*half.x*half.y/power};
+        const complex_number w = times(f, get(&step, j)), b = times(w, a);
+        put(&node, j, a);
+        put(&step, j, w);
         m->b_re[j] = b.re;
         m->b_im[j] = b.im;
-        step[j] = w;
     }
-    for (int j = 0; j < m->n; j++) sum += step[j].im;
-#pragma omp simd
-    for (int j = 0; j < m->n; j++) {
+    m->n = n;
+    for (int j = 0; j < n; j++) sum += step.im[j];
+    for (int j = 0; j < n; j++) {
+        m->re[j] = node.re[j];
+        m->im[j] = node.im[j];
         m->b_re[j] /= sum;
         m->b_im[j] /= sum;
-    }
-}
-
-/* (M - mu)/sin of POINTS directions, given cos and sin^2: the sum of Im(b/(sqrt(cos^2 + a sin^2) + cos)),
- * which has no cancellation at small roughness.  The elements of a vector are directions, so that the order of the sum
- * does not depend on the processor. */
-static void excess_of(const mixture *m, const double *cosine, const double *sin2, double *sum)
-{
-    for (int j = 0; j < POINTS; j++) sum[j] = 0;
-    for (int k = 0; k < m->n; k++) {
-        const double re = m->re[k], im = m->im[k], b_re = m->b_re[k], b_im = m->b_im[k];
-#pragma omp simd
-        for (int j = 0; j < POINTS; j++) {
-            const double x = cosine[j]*cosine[j] + re*sin2[j], y = im*sin2[j];
-            const double length = ksqrt(x*x + y*y);
-            const double big = ksqrt(0.5*(length + kabs(x))), small = 0.5*y/big;
-            const double u = x > 0 ? big : small, v = x > 0 ? small : big;
-            const double c = u + cosine[j];
-            sum[j] += (b_im*c - b_re*v)/(c*c + v*v);
-        }
     }
 }
 
@@ -170,12 +161,21 @@ static void excess_of(const mixture *m, const double *cosine, const double *sin2
 static void interpolate(int n, const double *value, double *terms)
 {
     double wave[4*POINTS]; /* cos(2 pi k/(4 n)) */
-    for (int k = 0; k < 4*n; k++) wave[k] = kcossin_turn(k/(4.0*n)).x;
+    for (int k = 0; k <= n; k++) {
+        wave[k] = kcossin_turn(k/(4.0*n)).x;
+        wave[2*n - k] = -wave[k];
+        wave[2*n + k] = -wave[k];
+        wave[k ? 4*n - k : 0] = wave[k];
+    }
     double older[POINTS] = {0}, old[POINTS] = {0}, next[POINTS]; /* powers of two successive T_k */
     for (int i = 0; i < n; i++) terms[i] = 0;
     for (int k = 0; k < n; k++) {
         double c = 0;
-        for (int j = 0; j < n; j++) c += value[j]*wave[k*(2*j + 1)%(4*n)];
+        for (int j = 0, at = k; j < n; j++) { /* at = k (2 j + 1) modulo 4 n */
+            c += value[j]*wave[at];
+            at += 2*k;
+            at -= at < 4*n ? 0 : 4*n;
+        }
         c *= (k ? 2.0 : 1.0)/n;
         for (int i = 0; i < n; i++) next[i] = k < 2 ? i == k : 2*(i ? old[i - 1] : 0) - older[i];
         for (int i = 0; i < n; i++) {
@@ -191,30 +191,26 @@ static double over_expm1(double x)
     return kabs(x) > REAL_MIN ? x/kexpm1(x) : 1;
 }
 
-/* The directions at POINTS values y of ln(s/alpha^2): cos, sin^2, and what the mixture gives there. */
-typedef struct directions {
-    double cosine[POINTS], sin2[POINTS], excess[POINTS];
-} directions;
-
-static void look(const mixture *m, double alpha, const double *y, directions *d)
+/* The directions at POINTS values y of ln(s/alpha^2). */
+static void look(const gtr_mixture *m, double alpha, const double *y, gtr_directions *d)
 {
     const double k0 = (1 - alpha)*(1 + alpha), L = -2*klog(alpha);
     for (int j = 0; j < POINTS; j++) {
         d->cosine[j] = ksqrt(alpha*alpha*kexpm1(y[j])/k0);
         d->sin2[j] = -kexpm1(y[j] - L)/k0;
     }
-    excess_of(m, d->cosine, d->sin2, d->excess);
+    batch_loops_chosen()->gtr_excess(m, d);
 }
 
 /* (M - mu)(M + mu), without the negative numbers that rounding makes of the smallest */
-static double effective_alpha2(const directions *d, int j)
+static double effective_alpha2(const gtr_directions *d, int j)
 {
     return kmax(d->excess[j]*(2*d->cosine[j] + d->sin2[j]*d->excess[j]), 0);
 }
 
 /* The guess at the inverse of T, ln((T + mu)/T0) by ln(T0/T), from the known points: the values at the zeros of
  * Chebyshev's polynomial by cubic interpolation between the four nearest of them. */
-static void fit_guess(const directions *d, gtr_fit *fit)
+static void fit_guess(const gtr_directions *d, gtr_fit *fit)
 {
     double l[POINTS], e[POINTS], value[GTR_GUESS];
     for (int j = 0; j < POINTS; j++) { /* from mu = 0 on */
@@ -248,9 +244,9 @@ void gtr_fit_shape(double alpha, double gamma, gtr_fit *fit)
     const double L = -2*klog(alpha), k0 = (1 - alpha)*(1 + alpha);
     *fit = (gtr_fit){.form = gamma < GTR_STEEP ? GTR_LOGARITHM : GTR_QUOTIENT};
     fit->peak = INV_PI/(alpha*alpha)*over_expm1(-(gamma - 1)*L)/over_expm1(-L);
-    mixture m;
+    gtr_mixture m;
     mix_ggx(alpha, gamma, FLOAT_DECAY, &m);
-    directions d;
+    gtr_directions d;
     double y[POINTS], f[POINTS];
     const double range = kmin(L, FLOAT_RANGE/kmax(gamma - 1, REAL_MIN));
     for (int j = 0; j < POINTS; j++) y[j] = 0.5*range*(1 + kcossin_turn((j + 0.5)/(2*POINTS)).x);
@@ -277,10 +273,10 @@ void gtr_fit_pieces(double alpha, double gamma, gtr_fit *fit, double pieces[GTR_
     fit->form = GTR_LOGARITHM;
     fit->scale = -GTR_PIECES/range;
     fit->offset = GTR_PIECES*L/range;
-    mixture m;
+    gtr_mixture m;
     mix_ggx(alpha, gamma, DOUBLE_DECAY, &m);
     for (int piece = 0; piece < GTR_PIECES; piece++) {
-        directions d;
+        gtr_directions d;
         double y[POINTS], A[POINTS];
         for (int j = 0; j < POINTS; j++)
             y[j] = range/GTR_PIECES*(piece + 0.5 + 0.5*kcossin_turn((j + 0.5)/(2*POINTS)).x);
@@ -288,4 +284,23 @@ void gtr_fit_pieces(double alpha, double gamma, gtr_fit *fit, double pieces[GTR_
         for (int j = 0; j < POINTS; j++) A[j] = effective_alpha2(&d, j);
         interpolate(POINTS, A, pieces[piece]);
     }
+}
+
+/* Along each azimuth (alpha_x cos psi, alpha_y sin psi) of slope space the distribution is a GTR of the roughness^2
+ * a = (alpha_x cos psi)^2 + (alpha_y sin psi)^2, so that 1/D(n) is 2 alpha_x alpha_y times the integral of
+ * (1 - a^(gamma - 1))/((gamma - 1)(1 - a)) over a quarter turn of psi.  tan psi = sqrt(alpha_x/alpha_y) tan chi spreads
+ * its narrow places; the trapezoidal rule then errs by e^(-4 n atanh(root)), root that of the ratio below 1. */
+double gtr_fit_disney_peak(double alpha_x, double alpha_y, double gamma)
+{
+    const double spread = ksqrt(alpha_x/alpha_y), root_of_ratio = kmin(spread, 1/spread);
+    const int n = (int)(10/root_of_ratio) + 10;
+    const double excess = kabs(gamma - 1) > LEAST_EXCESS ? gamma - 1 : LEAST_EXCESS;
+    double sum = 0;
+    for (int i = 0; i < n; i++) {
+        const real2 chi = kcossin_turn((i + 0.5)/(4.0*n));
+        const double x = chi.x, y = spread*chi.y, inverse = 1/(x*x + y*y);
+        const double a = kmin((alpha_x*alpha_x*x*x + alpha_y*alpha_y*y*y)*inverse, ROUGHEST);
+        sum += spread*inverse*kexpm1(excess*klog(a))/(excess*(a - 1));
+    }
+    return n/(PI*alpha_x*alpha_y*sum);
 }

@@ -28,6 +28,9 @@ void gtr_fit_shape(double alpha, double gamma, gtr_fit *fit);
  * variable scale v + offset of `fit` then runs from 0 to GTR_PIECES. */
 void gtr_fit_pieces(double alpha, double gamma, gtr_fit *fit, double pieces[GTR_PIECES][GTR_TERMS]);
 
+/* D at the normal of Disney's anisotropic D. */
+double gtr_fit_disney_peak(double alpha_x, double alpha_y, double gamma);
+
 #ifdef __cplusplus
 }
 #endif

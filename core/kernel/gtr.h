@@ -67,8 +67,8 @@ KERNEL real2 gtr_base(real3 m, gtr_shape g)
     return make2(1 + g.k0/(g.alpha*g.alpha)*(sin2*inv), dot3(m, m)*inv);
 }
 
-/* D at the direction of m, 1/sr; m need not be a unit vector.  [disney, 1, 4, 8]: D = c/(1 + (alpha^2 - 1)
- * cos^2)^gamma.
+/* D at the direction of m, 1/sr; m need not be a unit vector.  [disney, 1, 4, 8]:
+ *     D = c/(1 + (alpha^2 - 1) cos^2)^gamma.
  * Departure: D = D(n) (1 + k0/alpha^2 sin^2)^-gamma with sin^2 from the vector, which neither overflows nor cancels.
  * The stretch divides the slopes and multiplies D by (cos_unstretched/cos)^4. */
 KERNEL real gtr_D(real3 m, gtr_shape g)

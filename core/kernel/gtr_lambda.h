@@ -89,8 +89,8 @@ KERNEL real gtr_x_minus_atan(real x)
     return is_far ? (x - HALF_PI) + (v - near) : near;
 }
 
-/* Gauss's rule of 16 nodes for the weight (1 + x)^2 and the angle omega in [0, pi/2]: sin^2, cos^2, weight sin(2
- * omega). Roots of Jacobi's polynomial P_16^(0,2), computed with 40 digits. */
+/* Gauss's rule of 16 nodes for the weight (1 + x)^2 and the angle omega in [0, pi/2]: sin^2, cos^2, and the weight by
+ * sin(2 omega).  Roots of Jacobi's polynomial P_16^(0,2), computed with 40 digits. */
 typedef struct gtr_direct_node {
     real sin2, cos2, weight;
 } gtr_direct_node;

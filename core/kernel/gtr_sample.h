@@ -41,8 +41,7 @@ KERNEL real gtr_minus_log_s(gtr_shape g, real t0, real t1)
 }
 
 /* Where a share xi of the normals beyond -ln s = Y0 lies before: Y0 - Y and Y.  P(beyond Y) is proportional to
- * e^((gamma - 1) Y) - 1, [disney, 3, 5, 7, 9] from either end, so that both results are accurate where they are
- * small. */
+ * e^((gamma - 1) Y) - 1: [disney, 3, 5, 7, 9] from either end, accurate where a result is small. */
 KERNEL real2 gtr_quantile(real excess, real Y0, real xi)
 {
     real all     = excess*Y0;

@@ -49,27 +49,6 @@ static inline gtr_spline gtr_spline_at(real gamma)
     return (gtr_spline){weight[0], weight[1], weight[2], weight[3], weight[4]};
 }
 
-/* D at the normal of Disney's anisotropic D.  Along each azimuth (alpha_x cos psi, alpha_y sin psi) of slope space
- * it is a
- * GTR of the roughness^2 a = (alpha_x cos psi)^2 + (alpha_y sin psi)^2, so that 1/D(n) is 2 alpha_x alpha_y times the
- * integral of (1 - a^(gamma - 1))/((gamma - 1)(1 - a)) over a quarter turn of psi.  The trapezoidal rule is spread by
- * tan psi = sqrt(alpha_x/alpha_y) tan chi; its error falls as e^(-4 POINTS atanh(sqrt(ratio))), ratio that of the
- * alphas. */
-static inline real gtr_prepare_disney(gtr_shape g)
-{
-    enum { POINTS = 2048 };
-    real sum = 0;
-    for (int i = 0; i < POINTS; i++) {
-        const real2 chi = kcossin_turn((i + 0.5f)/(4*POINTS));
-        const real x = chi.x, y = g.stretch_x*chi.y;
-        const real inverse = 1/(x*x + y*y);
-        const real ax = g.alpha*g.stretch_x*x, ay = g.alpha*g.stretch_y*y;
-        const real a = kmin((ax*ax + ay*ay)*inverse, GTR_ROUGHEST);
-        sum += g.stretch_x*inverse*(kexpm1(g.excess*klog(a))/g.excess/(a - 1));
-    }
-    return POINTS/(PI*g.alpha*g.alpha*sum);
-}
-
 static inline gtr_shape gtr_shape_of(real alpha_x, real alpha_y, real gamma, int anisotropy)
 {
     const real x = kmin(alpha_x, GTR_ROUGHEST), y = kmin(alpha_y, GTR_ROUGHEST);
@@ -97,7 +76,7 @@ static inline gtr_shape gtr_shape_of(real alpha_x, real alpha_y, real gamma, int
     g.disney_peak = g.peak;
     if (anisotropy == GTR_DISNEY && x != y) {
         g.anisotropy = GTR_DISNEY;
-        g.disney_peak = gtr_prepare_disney(g);
+        g.disney_peak = (real)gtr_fit_disney_peak((double)x, (double)y, (double)gamma);
     }
     return g;
 }

@@ -120,10 +120,9 @@ static void G1_agrees_with_quadrature_over_the_whole_domain(void **state)
     print_message("  G1: float %.2g, direct %.2g; double %.2g\n", worst[0][0], worst[0][1], worst[1][0]);
 }
 
-/* A GTR of gamma < 2 is a mixture of GGX of roughness^2 a, and Lambda mixes linearly.  In tau = ln((a - alpha^2)/(1
- * - a))
- * the density is e^((2 - gamma) tau)/((1 + e^tau)(alpha^2 + e^tau)), which the trapezoidal rule integrates to e^(-4
- * pi^2). */
+/* A GTR of gamma < 2 is a mixture of GGX of roughness^2 a, and Lambda mixes linearly.  With (a - alpha^2)/(1 - a) =
+ * e^tau the density of tau is e^((2 - gamma) tau)/((1 + e^tau)(alpha^2 + e^tau)), which the trapezoidal rule
+ * integrates to e^(-4 pi^2). */
 static double mixed_G1(double alpha, double gamma, double mu)
 {
     const double h = .5, a0 = alpha*alpha;
@@ -182,8 +181,8 @@ static void published_masking_is_the_papers_spline(void **state)
     for (int knot = 1; knot < 4; knot++) {
         double y[9];
         for (int i = 0; i < 9; i++) y[i] = G1(KERNEL_PUBLISHED, alpha, knot + (i - 4)*h, mu);
-        const double left = (2*y[4] - 5*y[3] + 4*y[2] - y[1])/(h*h),
-                     right = (2*y[4] - 5*y[5] + 4*y[6] - y[7])/(h*h);
+        const double left = (2*y[4] - 5*y[3] + 4*y[2] - y[1])/(h*h);
+        const double right = (2*y[4] - 5*y[5] + 4*y[6] - y[7])/(h*h);
         assert_true(fabs(left - right) < 1e-6 && fabs(right) > 1e-3);
         assert_true(fabs((y[5] - y[3]) - (y[6] - y[2])/2) < 1e-6);
     }

@@ -204,7 +204,9 @@ static drawn draw_normal(const table_file *row, kernel_distribution which, const
 {
     const int is_double = access == &kernel_access_f64;
     double m[3];
-    access->sample_ndf(which, table_file_number(row, "alpha_x"), table_file_number(row, "alpha_y"), ux, uy, m);
+    const double x = table_file_number(row, "alpha_x"), y = table_file_number(row, "alpha_y");
+    if (is_of(row, "gtr")) access->gtr_sample_ndf(x, table_file_number(row, "gamma"), ux, uy, m);
+    else access->sample_ndf(which, x, y, ux, uy, m);
     drawn d = {.cos_theta = m[2], .sin_theta = hypot(m[0], m[1]), .x = m[0], .y = m[1], .z = m[2]};
     if (which == KERNEL_COSINE) {
         const any_bsdf lambert = any_bsdf_of("lambert", is_double);
@@ -235,7 +237,6 @@ static void check_sampling(int is_full)
     table_file row;
     if (!open_table(&row, "sampling", is_full)) return;
     while (table_file_next(&row)) {
-        if (is_of(&row, "gtr")) continue;
         const kernel_distribution which = is_of(&row, "cosine")     ? KERNEL_COSINE
                                           : is_of(&row, "phong")    ? KERNEL_PHONG
                                           : is_of(&row, "beckmann") ? KERNEL_BECKMANN
