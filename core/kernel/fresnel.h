@@ -81,15 +81,19 @@ KERNEL real3 fresnel_conductor3(real c, real3 eta, real3 k)
     return make3(fresnel_conductor(c, eta.x, k.x), fresnel_conductor(c, eta.y, k.y), fresnel_conductor(c, eta.z, k.z));
 }
 
-/* Schlick's approximation less strength c (1 - c)^6, which puts a dip near c = 1/7, 81.8 degrees, as metals have it.
- * [hoffman19].  Departure: not below 0, which it would be between F0 and grazing for small F0 and a dark tint. */
-KERNEL real3 fresnel_f82(real3 F0, real3 strength, real c)
+/* What metals reflect less than Schlick's F says: strength c (1 - c)^6, a dip near c = 1/7, 81.8 degrees.  [hoffman19].
+ * Departure: F at most, which it would exceed between normal and grazing for small F0 and a dark tint. */
+KERNEL real3 fresnel_dip(real3 F, real3 strength, real c)
 {
     real d     = kmax(1 - c, 0);
-    real d5    = kpow5(d);
-    real3 F    = add3(F0, scale3(d5, sub3(splat3(1), F0)));
-    real3 less = sub3(F, scale3(c*d*d5, strength));
-    return make3(kmax(less.x, 0), kmax(less.y, 0), kmax(less.z, 0));
+    real3 less = scale3(c*d*kpow5(d), strength);
+    return make3(kmin(less.x, F.x), kmin(less.y, F.y), kmin(less.z, F.z));
+}
+
+KERNEL real3 fresnel_f82(real3 F0, real3 strength, real c)
+{
+    real3 F = fresnel_schlick(F0, splat3(1), c);
+    return sub3(F, fresnel_dip(F, strength, c));
 }
 
 #define F82_AT     ((real)0.142857142857142857142857142857) /* 1/7 */
@@ -115,12 +119,14 @@ typedef struct fresnel {
     real3 k;
 } fresnel;
 
-/* Reflectance at c = |w.wm| in [0,1]. */
+/* Reflectance at c = |w.wm| in [0,1].  The dip is cut off by keep_if: of a third choice by ?: gcc makes a branch. */
 KERNEL real3 fresnel_reflectance(fresnel f, real c)
 {
-    real3 dielectric = splat3(fresnel_dielectric(c, f.eta.x));
     real3 schlick    = fresnel_schlick(f.F0, splat3(1), c);
-    real3 coloured   = select3(f.kind == FRESNEL_F82, fresnel_f82(f.F0, f.dip, c), schlick);
+    real3 dip        = fresnel_dip(schlick, f.dip, c);
+    int has_dip      = f.kind == FRESNEL_F82;
+    real3 coloured   = sub3(schlick, make3(keep_if(has_dip, dip.x), keep_if(has_dip, dip.y), keep_if(has_dip, dip.z)));
+    real3 dielectric = splat3(fresnel_dielectric(c, f.eta.x));
     real3 conductor  = fresnel_conductor3(c, f.eta, f.k);
     real3 clear      = select3(f.kind == FRESNEL_DIELECTRIC, dielectric, coloured);
     return select3(f.kind == FRESNEL_CONDUCTOR, conductor, clear);

@@ -147,6 +147,30 @@ static void albedo_is_the_mean_weight_of_samples(void **state)
     }
 }
 
+/* The same for rough glass, bent or straight; three numbers, weights to 2.25, edges of total reflection: 1e-3. */
+static void rough_glass_refracts_what_its_samples_weigh(void **state)
+{
+    (void)state;
+    static const struct {
+        const char *spec;
+        double cos_o;
+    } cases[] = {{"glass alpha=.3", .7},           {"glass alpha=.3", -.9},        {"glass alpha=.05", -.74},
+                 {"glass alpha=1 ior=1.2", .3},    {"glass alpha=1 ior=1.2", -.5}, {"glass alpha=.2 wall=thin", .5},
+                 {"glass alpha=.2 wall=thin", -.5}};
+    facet_material m;
+    if (facet_material_parse(cases[0].spec, &m, NULL)) {
+        print_message("  glass is smooth only\n");
+        skip();
+    }
+    for (size_t i = 0; i < sizeof cases/sizeof cases[0]; i++) {
+        double reflected, transmitted;
+        const albedo a = albedo_of(cases[i].spec, cases[i].cos_o, .3);
+        mean_weight(cases[i].spec, cases[i].cos_o, .3, &reflected, &transmitted);
+        check(cases[i].spec, cases[i].cos_o, a.reflected[0], reflected, 1e-3);
+        check(cases[i].spec, cases[i].cos_o, a.transmitted[0], transmitted, 1e-3);
+    }
+}
+
 /* A material that is turned by a quarter looks the same from a view that is. */
 static void anisotropy_turns_with_the_tangent(void **state)
 {
@@ -169,8 +193,8 @@ static double glass_reflectance(double c, double eta)
 static void smooth_glass_is_exact(void **state)
 {
     (void)state;
-    static const double cosines[] = {1, .9, .5, .1, .01};
-    for (int i = 0; i < 5; i++)
+    static const double cosines[] = {1, .9, .5, .1, .01, 1e-4};
+    for (int i = 0; i < 6; i++)
         for (int inside = 0; inside < 2; inside++) {
             const double c = cosines[i], side = inside ? -c : c;
             const struct {
@@ -306,6 +330,7 @@ int main(void)
         cmocka_unit_test(albedo_is_as_good_as_it_says),
         cmocka_unit_test(narrow_lobes_are_not_missed),
         cmocka_unit_test(albedo_is_the_mean_weight_of_samples),
+        cmocka_unit_test(rough_glass_refracts_what_its_samples_weigh),
         cmocka_unit_test(anisotropy_turns_with_the_tangent),
         cmocka_unit_test(smooth_glass_is_exact),
         cmocka_unit_test(averages_are_known),
