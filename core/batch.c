@@ -29,7 +29,7 @@ static const batch_loops *available(size_t i)
 /* Chosen on first use; every thread would choose the same. */
 static _Atomic(const batch_loops *) chosen;
 
-const batch_loops *batch_loops_chosen(void)
+const batch_loops *facet_batch_loops(void)
 {
     const batch_loops *table = atomic_load_explicit(&chosen, memory_order_relaxed);
     if (!table) {
@@ -58,23 +58,23 @@ facet_status facet_isa_force(const char *name)
 void facet_bsdf_eval_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f)
 {
     const prepared *p = (const prepared *)(const void *)bsdf;
-    batch_loops_chosen()->eval[p->kernel](p, n, wi, wo, f);
+    facet_batch_loops()->eval[p->kernel](p, n, wi, wo, f);
 }
 
 void facet_bsdf_pdf_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wi, facet_dirs wo, float *pdf)
 {
     const prepared *p = (const prepared *)(const void *)bsdf;
-    batch_loops_chosen()->pdf[p->kernel](p, n, wi, wo, pdf);
+    facet_batch_loops()->pdf[p->kernel](p, n, wi, wo, pdf);
 }
 
 void facet_bsdf_eval_pdf_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f, float *pdf)
 {
     const prepared *p = (const prepared *)(const void *)bsdf;
-    batch_loops_chosen()->eval_pdf[p->kernel](p, n, wi, wo, f, pdf);
+    facet_batch_loops()->eval_pdf[p->kernel](p, n, wi, wo, f, pdf);
 }
 
 void facet_bsdf_sample_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wo, facet_dirs u, facet_samples samples)
 {
     const prepared *p = (const prepared *)(const void *)bsdf;
-    batch_loops_chosen()->sample[p->kernel](p, n, wo, u, samples);
+    facet_batch_loops()->sample[p->kernel](p, n, wo, u, samples);
 }

@@ -30,7 +30,7 @@ typedef struct batch_loops {
 } batch_loops;
 
 /* The table in use. */
-const batch_loops *batch_loops_chosen(void);
+const batch_loops *facet_batch_loops(void);
 
 extern const batch_loops facet_batch_base;
 #if defined(__x86_64__)

@@ -199,7 +199,7 @@ static void look(const gtr_mixture *m, double alpha, const double *y, gtr_direct
         d->cosine[j] = ksqrt(alpha*alpha*kexpm1(y[j])/k0);
         d->sin2[j] = -kexpm1(y[j] - L)/k0;
     }
-    batch_loops_chosen()->gtr_excess(m, d);
+    facet_batch_loops()->gtr_excess(m, d);
 }
 
 /* (M - mu)(M + mu), without the negative numbers that rounding makes of the smallest */
@@ -238,7 +238,7 @@ static void fit_guess(const gtr_directions *d, gtr_fit *fit)
     interpolate(GTR_GUESS, value, fit->guess);
 }
 
-void gtr_fit_shape(double alpha, double gamma, gtr_fit *fit)
+void facet_gtr_fit_shape(double alpha, double gamma, gtr_fit *fit)
 {
     alpha = kmin(alpha, ROUGHEST);
     const double L = -2*klog(alpha), k0 = (1 - alpha)*(1 + alpha);
@@ -265,7 +265,7 @@ void gtr_fit_shape(double alpha, double gamma, gtr_fit *fit)
     fit->offset = fit->form == GTR_LOGARITHM ? 2*L/range - 1 : 2/k0 - 1;
 }
 
-void gtr_fit_pieces(double alpha, double gamma, gtr_fit *fit, double pieces[GTR_PIECES][GTR_TERMS])
+void facet_gtr_fit_pieces(double alpha, double gamma, gtr_fit *fit, double pieces[GTR_PIECES][GTR_TERMS])
 {
     alpha = kmin(alpha, ROUGHEST);
     const double L = -2*klog(alpha);
@@ -290,7 +290,7 @@ void gtr_fit_pieces(double alpha, double gamma, gtr_fit *fit, double pieces[GTR_
  * a = (alpha_x cos psi)^2 + (alpha_y sin psi)^2, so that 1/D(n) is 2 alpha_x alpha_y times the integral of
  * (1 - a^(gamma - 1))/((gamma - 1)(1 - a)) over a quarter turn of psi.  tan psi = sqrt(alpha_x/alpha_y) tan chi spreads
  * its narrow places; the trapezoidal rule then errs by e^(-4 n atanh(root)), root that of the ratio below 1. */
-double gtr_fit_disney_peak(double alpha_x, double alpha_y, double gamma)
+double facet_gtr_fit_disney_peak(double alpha_x, double alpha_y, double gamma)
 {
     const double spread = ksqrt(alpha_x/alpha_y), root_of_ratio = kmin(spread, 1/spread);
     const int n = (int)(10/root_of_ratio) + 10;

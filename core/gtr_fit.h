@@ -22,14 +22,14 @@ typedef struct gtr_fit {
 } gtr_fit;
 
 /* What both builds need, and the polynomial of the float build.  alpha in [1e-4, 1], gamma in (0, 20]. */
-void gtr_fit_shape(double alpha, double gamma, gtr_fit *fit);
+void facet_gtr_fit_shape(double alpha, double gamma, gtr_fit *fit);
 
 /* A instead over GTR_PIECES equal parts of ln s, from s = alpha^2 on, each in powers of a variable from -1 to 1.  The
  * variable scale v + offset of `fit` then runs from 0 to GTR_PIECES. */
-void gtr_fit_pieces(double alpha, double gamma, gtr_fit *fit, double pieces[GTR_PIECES][GTR_TERMS]);
+void facet_gtr_fit_pieces(double alpha, double gamma, gtr_fit *fit, double pieces[GTR_PIECES][GTR_TERMS]);
 
 /* D at the normal of Disney's anisotropic D. */
-double gtr_fit_disney_peak(double alpha_x, double alpha_y, double gamma);
+double facet_gtr_fit_disney_peak(double alpha_x, double alpha_y, double gamma);
 
 #ifdef __cplusplus
 }

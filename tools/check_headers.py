@@ -17,7 +17,7 @@ from concurrent.futures import ThreadPoolExecutor
 
 import tree
 
-COMMON = ["-fsyntax-only", "-Wall", "-Wextra", "-Wshadow", "-Werror", "-D_POSIX_C_SOURCE=200809L",
+COMMON = ["-fsyntax-only", "-Wall", "-Wextra", "-Wshadow", "-Werror", "-fopenmp-simd", "-D_POSIX_C_SOURCE=200809L",
           "-D_DEFAULT_SOURCE", "-ffp-contract=off"]
 KERNELS = "core/kernel/"
 PARTS = ("core/*_text.h", "core/kernel/kmath_*.h", "tests/*_text.h", "tests/*_cases.h")

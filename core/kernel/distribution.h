@@ -59,13 +59,13 @@ KERNEL real distribution_exact_Lambda(distribution d, real3 v)
                                     : phong_Lambda(v, d.phong, d.alpha_x, d.alpha_y);
 }
 
-/* What the paper prints in its place; GGX's is exact. */
+/* What the paper prints in its place; GGX's is exact, and gtr's spline is held in (0, 1]. */
 KERNEL real distribution_published_Lambda(distribution d, real3 v)
 {
     real a = stretched_cot(v, d.alpha_x, d.alpha_y);
     return d.kind == NDF_GGX        ? ggx_Lambda(v, d.alpha_x, d.alpha_y)
            : d.kind == NDF_BECKMANN ? rational_fit_Lambda(a)
-           : d.kind == NDF_GTR      ? 1/gtr_published_G1(v, d.gtr, d.spline) - 1
+           : d.kind == NDF_GTR      ? 1/kclamp(gtr_published_G1(v, d.gtr, d.spline), GTR_LEAST_G1, 1) - 1
                                     : rational_fit_Lambda(a*phong_fit_scale(d.phong));
 }
 

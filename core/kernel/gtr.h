@@ -40,6 +40,7 @@ typedef struct gtr_shape {
     real excess;               /* gamma - 1, but not 0 */
     real log_range;            /* L = -ln(alpha^2) */
     real k0;                   /* 1 - alpha^2 */
+    real survival;             /* 1/(e^(-excess L) - 1) */
     real peak;                 /* D at the normal */
     real disney_peak;          /* ... where the anisotropy is Disney's */
     real T0;                   /* T at grazing: the mean of |slope|/2 */

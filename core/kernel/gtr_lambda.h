@@ -58,7 +58,7 @@ KERNEL real gtr_Lambda_exact(real alpha, real gamma, real mu)
     for (int i = 0; i < LAMBDA_POINTS; i++) {
         real w  = kexp((i + 0.5f)*step - LAMBDA_LOWEST); /* e/mu */
         real w2 = w*w;
-        sum += gtr_survival(m*m*(1 + w2), alpha2, k0, excess, L)*(w*w2/(1 + w2));
+        sum += gtr_survival(m*m*(1 + w2), alpha2, k0, excess, L)*(w*(w2/(1 + w2)));
     }
     real T = INV_PI*step*m*sum + 0.5f*kmax(least - mu, 0);
     return T/kmax(mu, COT_SMALLEST);

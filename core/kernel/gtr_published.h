@@ -2,7 +2,8 @@
  * 1, 2, 3, 4, and for other gammas a natural cubic spline through these five, gamma beyond 4 counting as 4.
  *
  * [vray] Dimov, Deriving the Smith shadowing function G1 for gamma in (0, 4], 2015, sections 4 to 6.
- * The closed forms are exact.  The spline is off by up to 0.17, the clamp by up to 0.44; some values exceed 1 by 0.04.
+ * The closed forms are exact.  The spline is off by up to 0.17, the clamp by up to 0.44; some values exceed 1 by 0.04,
+ * and some are negative.
  * SPDX-License-Identifier: MIT */
 #pragma once
 
@@ -14,6 +15,8 @@
 #else
 #define GTR_STEEPEST 16384.0f
 #endif
+
+#define GTR_LEAST_G1 ((real)1e-12) /* of the spline, where it is used: finite in the products of two */
 
 /* The weights of the five closed forms in the spline's value at gamma. */
 typedef struct gtr_spline {

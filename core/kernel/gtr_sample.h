@@ -8,7 +8,8 @@
  *   (t - mu)+ = Int_mu 1[t > q] dq, draw q with P(q > x) = T(x)/T(mu), then a slope of the whole distribution beyond
  *   the line t = q: first its azimuth phi, with a density proportional to S(q/cos phi), S(r) = P(radius > r), then its
  *   radius beyond q/cos phi.
- * S and its inverse are elementary; T and phi are inverted by a guess and Newton's method, docs/models/gtr.md.
+ * S and its inverse are elementary; T is inverted by a guess and Newton's method, the integral over phi by quartics,
+ * docs/models/gtr.md.
  *
  * [disney] Burley, Physically based shading at Disney, 2012, appendix B: (2), (3), (5), (7), (9).
  * SPDX-License-Identifier: MIT */
@@ -18,20 +19,18 @@
 
 #if FACET_REAL_IS_DOUBLE
 #define GTR_LINE_STEPS     8
-#define GTR_AZIMUTH_STEPS  5
-#define GTR_AZIMUTH_PANELS 8
+#define GTR_AZIMUTH_POINTS 97 /* of panels of four */
+#define GTR_PANEL_STEPS    5
 #else
 #define GTR_LINE_STEPS     2
-#define GTR_AZIMUTH_STEPS  2
-#define GTR_AZIMUTH_PANELS 1
+#define GTR_AZIMUTH_POINTS 25
+#define GTR_PANEL_STEPS    3
 #endif
 
-/* Gauss's rule of five nodes on [-1/2, 1/2]. */
-#define GAUSS_5_NEAR        ((real)0.26923465505284154552)
-#define GAUSS_5_FAR         ((real)0.4530899229693319964)
-#define GAUSS_5_WEIGHT      ((real)0.28444444444444444444)
-#define GAUSS_5_NEAR_WEIGHT ((real)0.23931433524968323402)
-#define GAUSS_5_FAR_WEIGHT  ((real)0.11846344252809454376)
+#define GTR_LEAST_NEAR ((real)0.01)
+#define SIXTH          ((real)0.16666666666666666667)
+#define SEVENTY_SECOND ((real)0.01388888888888888889)
+#define TWO_45THS      ((real)0.04444444444444444444)
 
 /* Y = -ln s at tan^2(theta) = t0/t1, to relative accuracy where s is near 1. */
 KERNEL real gtr_minus_log_s(gtr_shape g, real t0, real t1)
@@ -93,52 +92,127 @@ KERNEL real2 gtr_line(gtr_shape g, real tau, real lowest)
     return make2(q, S);
 }
 
-/* S(q/cos phi) d phi/dh at h = tan(phi/2), times e^(excess L) - 1, and e^-shift against overflow. */
-KERNEL real gtr_azimuth_density(gtr_shape g, real q2, real shift, real h)
+/* The line beyond which a normal of the tail lies, and what its azimuth needs. */
+typedef struct gtr_tail_line {
+    real q;     /* its distance */
+    real z;     /* (gamma - 1) Y there */
+    real total; /* Int S(q/cos phi) d phi/S(q) */
+} gtr_tail_line;
+
+/* The density S(q/cos phi) of the azimuths of the points beyond the line at distance q, in a variable y in [0, 1] that
+ * resolves the two places where it changes: phi = 0, about which a steep S keeps it, and pi/2, before which it falls
+ * where the line is nearer than the slopes reach.  h = tan(phi/2) = 1 + near - (1 + near) e^(-fall z), and
+ * z = spread y/(1 - y (1 - spread)). */
+typedef struct gtr_azimuths {
+    real q2, shift; /* q^2; e^-shift keeps the density finite */
+    real near, fall, spread;
+} gtr_azimuths;
+
+KERNEL gtr_azimuths gtr_azimuths_of(gtr_shape g, gtr_tail_line line)
 {
-    real plus  = 1 + h*h;
-    real minus = 1 - h*h;
-    real Y     = gtr_minus_log_s(g, q2*plus*plus, minus*minus);
-    return 2*kexpm1(g.excess*Y - shift)/plus;
+    gtr_azimuths a;
+    a.q2     = line.q*line.q;
+    a.shift  = kmax(line.z - GTR_LARGEST_POWER, 0);
+    a.near   = kmax(line.q/(line.q + 2*g.T0), GTR_LEAST_NEAR);
+    a.fall   = klog(1 + 1/a.near);
+    a.spread = kmin(line.total, 1);
+    return a;
 }
 
-/* Its integral from `low` over `width`, by Gauss's rule of five nodes. */
-KERNEL real gtr_azimuth_integral(gtr_shape g, real q2, real shift, real low, real width)
+/* h at y, and dh/dy. */
+KERNEL real2 gtr_azimuth_at(gtr_azimuths a, real y)
 {
-    real middle = low + 0.5f*width;
-    real near   = gtr_azimuth_density(g, q2, shift, middle - GAUSS_5_NEAR*width) +
-                gtr_azimuth_density(g, q2, shift, middle + GAUSS_5_NEAR*width);
-    real far = gtr_azimuth_density(g, q2, shift, middle - GAUSS_5_FAR*width) +
-               gtr_azimuth_density(g, q2, shift, middle + GAUSS_5_FAR*width);
-    return width*(GAUSS_5_WEIGHT*gtr_azimuth_density(g, q2, shift, middle) + GAUSS_5_NEAR_WEIGHT*near +
-                  GAUSS_5_FAR_WEIGHT*far);
+    real inverse = 1/(1 - y*(1 - a.spread));
+    real rest    = (1 + a.near)*kexp(-a.fall*(a.spread*y*inverse));
+    return make2(1 + a.near - rest, rest*a.fall*a.spread*inverse*inverse);
 }
 
-/* The azimuth of a point beyond the line at distance q, as h = tan(phi/2) in [0, 1): a share v of the points lies
- * below.  The density of phi is S(q/cos phi)/S(q), its integral up to pi/2 is `total`.  It resembles a power of
- * cos(phi), for which cos^2 = (1 - v^2)^(total^2) is a good guess; Halley's method for a power of 1 - h improves it. */
-KERNEL real gtr_azimuth(gtr_shape g, real q, real total, real v)
+/* The density of y, times |e^(excess L) - 1| e^-shift. */
+KERNEL real gtr_azimuth_density(gtr_shape g, gtr_azimuths a, real y)
 {
-    real q2    = q*q;
-    real all   = g.excess*gtr_minus_log_s(g, q2, 1);
-    real shift = kmax(all - GTR_LARGEST_POWER, 0);
-    real scale = 1/(kexpm1(all - shift)*total);
-    real above = 1 - v;
-    real power = total*total*klog1p(-kmin(v*v, 1 - REAL_EPSILON));
-    real h     = ksqrt(-kexpm1(power))/(1 + kexp(0.5f*power));
+    real2 h    = gtr_azimuth_at(a, y);
+    real plus  = 1 + h.x*h.x;
+    real minus = kmax(1 - h.x*h.x, 0);
+    real Y     = gtr_minus_log_s(g, a.q2*plus*plus, minus*minus);
+    return kabs(kexpm1(g.excess*Y - a.shift))*(2*h.y/plus);
+}
+
+/* Five values of a density at equal distances, and how far beyond the first of them, in mass, a point lies. */
+typedef struct gtr_panel {
+    real f0, f1, f2, f3, f4, left;
+} gtr_panel;
+
+/* The position of the point in [0, 4], by Newton's method for the integral of the quartic through the values. */
+KERNEL real gtr_panel_quantile(gtr_panel p)
+{
+    real d1   = p.f1 - p.f0;
+    real d2   = p.f2 - 2*p.f1 + p.f0;
+    real d3   = p.f3 - 3*(p.f2 - p.f1) - p.f0;
+    real d4   = p.f4 - 4*(p.f3 + p.f1) + 6*p.f2 + p.f0;
+    real c1   = p.f0;
+    real c2   = 0.5f*d1 - 0.25f*d2 + SIXTH*d3 - 0.125f*d4;
+    real c3   = SIXTH*(d2 - d3) + 11*SEVENTY_SECOND*d4;
+    real c4   = 0.25f*SIXTH*d3 - 0.0625f*d4;
+    real c5   = (real)0.6*SEVENTY_SECOND*d4;
+    real mass = 4*(c1 + 4*(c2 + 4*(c3 + 4*(c4 + 4*c5))));
+    real left = kclamp(p.left, 0, mass);
+    /* a density that falls or rises along a line is the start */
+    real share = left/kmax(mass, REAL_MIN);
+    real low   = p.f0/kmax(p.f0 + p.f4, REAL_MIN);
+    real x     = 4*share/kmax(low + ksqrt(kmax(low*low + (1 - 2*low)*share, 0)), REAL_MIN);
     UNROLL
-    for (int step = 0; step < GTR_AZIMUTH_STEPS; step++) {
-        real width = h/GTR_AZIMUTH_PANELS;
-        real sum   = 0;
-        UNROLL
-        for (int i = 0; i < GTR_AZIMUTH_PANELS; i++) sum += gtr_azimuth_integral(g, q2, shift, i*width, width);
-        real rest = kmax(1 - scale*sum, REAL_EPSILON);
-        real d    = scale*gtr_azimuth_density(g, q2, shift, h)*(1 - h); /* rest goes as (1 - h)^(d/rest) */
-        real up   = (d - rest)*rest + (d + rest)*above;
-        real down = (d + rest)*rest + (d - rest)*above;
-        h         = kclamp(1 - (1 - h)*up/down, 0, 1 - REAL_EPSILON);
+    for (int step = 0; step < GTR_PANEL_STEPS; step++) {
+        real below   = x*(c1 + x*(c2 + x*(c3 + x*(c4 + x*c5))));
+        real density = c1 + x*(2*c2 + x*(3*c3 + x*(4*c4 + x*(5*c5))));
+        x            = kclamp(x - (below - left)/kmax(density, REAL_MIN), 0, 4);
     }
-    return h;
+    return x;
+}
+
+/* The integral over [0, 4] from these five values. */
+KERNEL real gtr_boole(real f0, real f1, real f2, real f3, real f4)
+{
+    return TWO_45THS*(7*(f0 + f4) + 32*(f1 + f3) + 12*f2);
+}
+
+typedef struct gtr_densities {
+    real f[GTR_AZIMUTH_POINTS];
+} gtr_densities;
+
+/* The azimuth of a point beyond the line, as h = tan(phi/2) in [0, 1): a share v of the points lies below.  By Boole's
+ * rule in panels of y, and the quartic in the one where v lies. */
+KERNEL real gtr_azimuth(gtr_shape g, gtr_tail_line line, real v)
+{
+    gtr_azimuths a = gtr_azimuths_of(g, line);
+    real step      = 1/(real)(GTR_AZIMUTH_POINTS - 1);
+    gtr_densities at;
+    UNROLL
+    for (int i = 0; i < GTR_AZIMUTH_POINTS; i++) at.f[i] = gtr_azimuth_density(g, a, i*step);
+    real left = 0;
+    UNROLL
+    for (int i = 0; i < GTR_AZIMUTH_POINTS - 1; i += 4)
+        left += v*gtr_boole(at.f[i], at.f[i + 1], at.f[i + 2], at.f[i + 3], at.f[i + 4]);
+    gtr_panel here;
+    here.f0    = at.f[0];
+    here.f1    = at.f[1];
+    here.f2    = at.f[2];
+    here.f3    = at.f[3];
+    here.f4    = at.f[4];
+    here.left  = left;
+    real first = 0;
+    UNROLL
+    for (int i = 0; i < GTR_AZIMUTH_POINTS - 1; i += 4) {
+        int is_in = left >= 0;
+        first     = is_in ? i*step : first;
+        here.f0   = is_in ? at.f[i] : here.f0;
+        here.f1   = is_in ? at.f[i + 1] : here.f1;
+        here.f2   = is_in ? at.f[i + 2] : here.f2;
+        here.f3   = is_in ? at.f[i + 3] : here.f3;
+        here.f4   = is_in ? at.f[i + 4] : here.f4;
+        here.left = is_in ? left : here.left;
+        left -= gtr_boole(at.f[i], at.f[i + 1], at.f[i + 2], at.f[i + 3], at.f[i + 4]);
+    }
+    return kclamp(gtr_azimuth_at(a, first + step*gtr_panel_quantile(here)).x, 0, 1 - REAL_EPSILON);
 }
 
 /* A viewer as the isotropic GTR sees him. */
@@ -188,25 +262,39 @@ KERNEL real3 gtr_sample_body(gtr_view v, real ux, real uy, real uz, gtr_shape g)
     return gtr_turn(v, sided*turn.x, sided*turn.y, g);
 }
 
+KERNEL gtr_tail_line gtr_draw_line(gtr_shape g, real mu, real T, real u)
+{
+    real2 at = gtr_line(g, kmax(T*(1 - u), REAL_MIN), mu);
+    real z   = g.excess*gtr_minus_log_s(g, at.x*at.x, 1);
+    real S   = g.survival*kexp(z - g.excess*g.log_range)*kexpm1(-z); /* P(radius > q) */
+    gtr_tail_line line;
+    line.q     = at.x;
+    line.z     = z;
+    line.total = kclamp(PI*at.y/kmax(S, REAL_MIN), REAL_EPSILON, HALF_PI);
+    return line;
+}
+
+/* The normal on that line's far side at the azimuth with tan(phi/2) = h, on the side that the sign of `side` says. */
+KERNEL real3 gtr_draw_beyond(gtr_shape g, gtr_view v, real q, real h, real side, real u)
+{
+    real inv  = 1/(1 + h*h);
+    real cos  = (1 - h*h)*inv;
+    real sin  = kcopysign(2*h*inv, side);
+    real edge = q/cos;
+    real Y0   = gtr_minus_log_s(g, edge*edge, 1);
+    real2 Y   = gtr_quantile(g.excess, Y0, u);
+    real tan2 = gtr_tan2(g.alpha*g.alpha, (g.log_range - Y0) + Y.x, Y.y);
+    real r    = kmax(ksqrt(tan2), edge);
+    return gtr_turn(v, r*cos, r*sin, g);
+}
+
 /* A normal with the density P22 (t - mu)+/T(mu): line, azimuth, radius. */
 KERNEL real3 gtr_sample_tail(gtr_view v, real ux, real uy, real uz, gtr_shape g)
 {
-    real2 line = gtr_line(g, kmax(v.T*(1 - ux), REAL_MIN), v.mu);
-    real q     = line.x;
-    real z     = g.excess*gtr_minus_log_s(g, q*q, 1);
-    real all   = g.excess*g.log_range;
-    real S     = kexp(z - all)*kexpm1(-z)/kexpm1(-all); /* P(radius > q) */
-    real side  = 2*uy - 1;
-    real h     = gtr_azimuth(g, q, kclamp(PI*line.y/kmax(S, REAL_MIN), REAL_EPSILON, HALF_PI), kabs(side));
-    real inv   = 1/(1 + h*h);
-    real cos   = (1 - h*h)*inv;
-    real sin   = kcopysign(2*h*inv, side);
-    real edge  = q/cos;
-    real Y0    = gtr_minus_log_s(g, edge*edge, 1);
-    real2 Y    = gtr_quantile(g.excess, Y0, uz);
-    real tan2  = gtr_tan2(g.alpha*g.alpha, (g.log_range - Y0) + Y.x, Y.y);
-    real r     = kmax(ksqrt(tan2), edge);
-    return gtr_turn(v, r*cos, r*sin, g);
+    gtr_tail_line line = gtr_draw_line(g, v.mu, v.T, ux);
+    real side          = 2*uy - 1;
+    real h             = gtr_azimuth(g, line, kabs(side));
+    return gtr_draw_beyond(g, v, line.q, h, side, uz);
 }
 
 /* A normal with density D(wm) (wo.wm)+/sigma(wo), of any length; ux, uy, uz: uniform.  The tail costs ten times the

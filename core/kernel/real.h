@@ -13,13 +13,17 @@
 #define FACET_REAL_IS_DOUBLE 0
 #endif
 
-/* Not every translation unit calls every kernel; an unused one is no mistake.  Always inlined, because a call
- * that is left in a loop keeps the loop from vectorising. */
+/* Not every translation unit calls every kernel; an unused one is no mistake.  Always inlined where anything is,
+ * because a call that is left in a loop keeps the loop from vectorising. */
+#ifdef __OPTIMIZE__
 #define KERNEL static inline __attribute__((unused, always_inline))
+#else
+#define KERNEL static inline __attribute__((unused))
+#endif
 
 /* In files of loops over batches (batch_text.h sets FACET_LOOPS) a large kernel is inlined too, and its loops of
- * constant
- * length are unrolled: left as loops, they keep the one around from vectorising.  Elsewhere one copy will do. */
+ * constant length are unrolled: left as loops, they keep the one around from vectorising.  Elsewhere one copy will do.
+ */
 #ifdef FACET_LOOPS
 #define LARGE_KERNEL KERNEL
 #if defined(__clang__)

@@ -54,19 +54,20 @@ static inline gtr_shape gtr_shape_of(real alpha_x, real alpha_y, real gamma, int
     const real x = kmin(alpha_x, GTR_ROUGHEST), y = kmin(alpha_y, GTR_ROUGHEST);
     const real alpha = x == y ? x : ksqrt(x*y);
     gtr_fit fit;
-    gtr_fit_shape((double)alpha, (double)gamma, &fit);
+    facet_gtr_fit_shape((double)alpha, (double)gamma, &fit);
     gtr_shape g = {.anisotropy = GTR_STRETCHED, .alpha = alpha, .gamma = gamma, .excess = gtr_excess(gamma)};
     g.stretch_x = x/alpha;
     g.stretch_y = y/alpha;
     g.log_range = -2*klog(alpha);
     g.k0 = (1 - alpha)*(1 + alpha);
+    g.survival = 1/kexpm1(-g.excess*g.log_range);
     g.peak = (real)fit.peak;
     g.T0 = (real)fit.T0;
     g.guess_scale = (real)fit.guess_scale;
     g.guess_slope = (real)fit.guess_slope;
     for (int k = 0; k < GTR_GUESS; k++) g.guess[k] = (real)fit.guess[k];
 #if FACET_REAL_IS_DOUBLE
-    gtr_fit_pieces(alpha, gamma, &fit, g.terms);
+    facet_gtr_fit_pieces(alpha, gamma, &fit, g.terms);
 #else
     for (int k = 0; k < GTR_TERMS; k++) g.terms[k] = (real)fit.terms[k];
 #endif
@@ -76,7 +77,7 @@ static inline gtr_shape gtr_shape_of(real alpha_x, real alpha_y, real gamma, int
     g.disney_peak = g.peak;
     if (anisotropy == GTR_DISNEY && x != y) {
         g.anisotropy = GTR_DISNEY;
-        g.disney_peak = (real)gtr_fit_disney_peak((double)x, (double)y, (double)gamma);
+        g.disney_peak = (real)facet_gtr_fit_disney_peak((double)x, (double)y, (double)gamma);
     }
     return g;
 }

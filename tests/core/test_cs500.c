@@ -169,8 +169,9 @@ static void options_are_those_of_the_single_distributions(void **state)
     static const char *const same[][2] = {
         {"cs500 alpha=.3 kd=.5 ks=.2", "ggx alpha=.3 kd=.5 ks=.2 g2=separable masking=published sampling=ndf"},
         {"cs500 ndf=beckmann alpha=.3 ks=.2", "beckmann alpha=.3 ks=.2 g2=separable masking=published sampling=ndf"},
-        {"cs500 ndf=phong exponent=20 ior=1.5", "phong exponent=20 ior=1.5 g2=separable masking=published"},
-        {"cs500 ndf=phong exponent=20 masking=exact g2=correlated", "phong exponent=20"},
+        {"cs500 ndf=phong exponent=20 ior=1.5",
+         "phong exponent=20 ior=1.5 g2=separable masking=published sampling=ndf"},
+        {"cs500 ndf=phong exponent=20 masking=exact g2=correlated", "phong exponent=20 sampling=ndf"},
         {"cs500 ndf=phong alpha=.25", "cs500 ndf=phong exponent=30"},
         {"cs500 ndf=beckmann exponent=30", "cs500 ndf=beckmann alpha=.25"},
         {"cs500 ndf=phong", "cs500 ndf=phong exponent=50"},

@@ -231,9 +231,9 @@ static void check_sampling(int is_full)
 {
     enum { COLUMNS = 6 };
     static const char *const names[COLUMNS] = {"cos_theta", "sin_theta", "hx", "hy", "hz", "pdf_h"};
-    column columns[COLUMNS] = {{.name = "cos_theta", .allowed = 78}, {.name = "sin_theta", .allowed = 68},
-                               {.name = "hx", .allowed = 68},        {.name = "hy", .allowed = 44},
-                               {.name = "hz", .allowed = 78},        {.name = "pdf_h", .allowed = 168}};
+    column columns[COLUMNS] = {{.name = "cos_theta", .allowed = 268}, {.name = "sin_theta", .allowed = 122},
+                               {.name = "hx", .allowed = 120},        {.name = "hy", .allowed = 98},
+                               {.name = "hz", .allowed = 268},        {.name = "pdf_h", .allowed = 399}};
     table_file row;
     if (!open_table(&row, "sampling", is_full)) return;
     while (table_file_next(&row)) {

@@ -95,6 +95,23 @@ static void results_in_double(const facet_bsdf64 *bsdf, const double x[N_INPUTS]
     r[12] = s.lobe;
 }
 
+/* The sampled direction is itself rounded before its density and f are evaluated: adds what that does to both. */
+static void add_rounded_direction(const facet_bsdf64 *bsdf, const double wo[3], const double r[N_RESULTS],
+                                  double bounds[N_RESULTS])
+{
+    if (!(r[7] > 0) || !isfinite(r[7])) return;
+    for (int k = 0; k < 3; k++) {
+        double change = 0;
+        for (int side = -1; side <= 1; side += 2) {
+            double wi[3] = {r[4], r[5], r[6]};
+            wi[k] *= 1 + side*ROUNDINGS*0.5*(double)FLT_EPSILON;
+            change = fmax(change, fabs(facet_bsdf64_pdf(bsdf, wi, wo) - r[7]));
+        }
+        bounds[7] += change;
+        for (int j = 8; j <= 10; j++) bounds[j] += 2*change/r[7]*fabs(r[j]); /* f/pdf: f changes as much */
+    }
+}
+
 static void find_bounds(const facet_bsdf64 *bsdf, int i, double bounds[N_RESULTS])
 {
     const double unit = ROUNDINGS*0.5*(double)FLT_EPSILON;
@@ -114,6 +131,7 @@ static void find_bounds(const facet_bsdf64 *bsdf, int i, double bounds[N_RESULTS
         x[k] = at;
         for (int j = 0; j < N_RESULTS; j++) bounds[j] += changes[j];
     }
+    add_rounded_direction(bsdf, x + 3, r, bounds);
 }
 
 /* ---- Materials --------------------------------------------------------------------------------- */
@@ -130,6 +148,13 @@ static void add_variation(const facet_material *material, const char *what, doub
     if (facet_bsdf_prepare(material, &v->single, &why) || facet_bsdf64_prepare(material, &twice, &why))
         fail_msg("%s: %s: %s", v->name, why.place, why.text);
     for (int i = 0; i < N_PAIRS; i++) find_bounds(&twice, i, v->bounds[i]);
+}
+
+/* The other number of a conductor whose eta or k is given. */
+static void set_conductor(facet_material *material, const char *given, const double *values)
+{
+    const char *const other = strcmp(given, "k") == 0 ? "eta" : "k";
+    if (facet_material_set(material, other, values, 1, NULL)) fail_msg("%s cannot be set", other);
 }
 
 /* The defaults; every other choice; every number at a quarter and three quarters of its range (in its logarithm where
@@ -157,6 +182,8 @@ static void add_variations(const facet_model_info *model)
             const size_t n_values = p->kind == FACET_COLOUR ? 3 : 1;
             if (facet_material_set(&material, p->name, values, n_values, &why))
                 fail_msg("%s %s=%g: %s", model->name, p->name, values[0], why.text);
+            if (strcmp(p->name, "eta") == 0 || strcmp(p->name, "k") == 0) /* only given together */
+                set_conductor(&material, p->name, values);
             add_variation(&material, p->name, values[0]);
         }
     }

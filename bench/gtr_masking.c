@@ -1,6 +1,6 @@
-/* gtr.c: nanoseconds per Lambda of GTR by each way to compute it, per D and per fit, beside GGX.
+/* gtr_masking.c: nanoseconds per Lambda of GTR by each way to compute it, per D and per fit, beside GGX.
  *
- *     gtr
+ *     gtr_masking
  *
  * One core; loops over the kernels at AVX-512, compiled with the flags of the library, 4096 elements in cache, best of
  * 300 runs; the fit is the library's.  "published" is [vray]'s closed forms and spline with weights prepared per gamma,
@@ -13,6 +13,7 @@
 #pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw")
 #endif
 #define FACET_REAL_IS_DOUBLE 0
+#define FACET_LOOPS
 #define FACET_PREPARE
 #include "core/model/model_gtr.h"
 
@@ -62,7 +63,7 @@ static double fit_ns(double alpha, double gamma)
     for (int r = 0; r < ROUNDS; r++) {
         gtr_fit fit;
         const double start = seconds();
-        for (int k = 0; k < 8; k++) gtr_fit_shape(alpha, gamma, &fit);
+        for (int k = 0; k < 8; k++) facet_gtr_fit_shape(alpha, gamma, &fit);
         best = fmin(best, (seconds() - start)*1e9/8);
     }
     return best;
