@@ -48,6 +48,10 @@ KERNEL real rational_fit_Lambda(real a)
     return a < FIT_1_6 ? 1/G1 - 1 : (real)0;
 }
 
+/* The share of the facets, by projected area, whose tan^2 is above tan2, and the tan2 of a share; rest = 1 - share. */
+KERNEL real beckmann_share_beyond(real tan2) { return kexp(-tan2); }
+KERNEL real beckmann_tan2_beyond(real share, real rest) { return share > 0.5f ? -klog1p(-rest) : -klog(share); }
+
 /* A normal with density D cos_m: tan^2 = -alpha^2 ln(1 - u.x).  [cs500, sampling of Beckmann]. */
 KERNEL real3 beckmann_sample_ndf(real ux, real uy, real alpha_x, real alpha_y)
 {

@@ -90,6 +90,24 @@ KERNEL real distribution_sigma(distribution d, real3 v)
                                           : distribution_exact_sigma(d, v);
 }
 
+/* The share of the facets, by projected area, whose stretched tan^2 is above tan2, and the tan2 of a share;
+ * rest = 1 - share. */
+KERNEL real distribution_share_beyond(distribution d, real tan2)
+{
+    return d.kind == NDF_GGX        ? ggx_share_beyond(tan2)
+           : d.kind == NDF_BECKMANN ? beckmann_share_beyond(tan2)
+           : d.kind == NDF_GTR      ? gtr_share_beyond(tan2, d.gtr)
+                                    : phong_share_beyond(tan2, d.phong);
+}
+
+KERNEL real distribution_tan2_beyond(distribution d, real share, real rest)
+{
+    return d.kind == NDF_GGX        ? ggx_tan2_beyond(share, rest)
+           : d.kind == NDF_BECKMANN ? beckmann_tan2_beyond(share, rest)
+           : d.kind == NDF_GTR      ? gtr_tan2_beyond(rest, d.gtr)
+                                    : phong_tan2_beyond(share, rest, d.phong);
+}
+
 /* A normal with density D cos_m, of any length. */
 KERNEL real3 distribution_sample_ndf(distribution d, real ux, real uy)
 {

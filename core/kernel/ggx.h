@@ -37,6 +37,10 @@ KERNEL real ggx_Lambda(real3 v, real alpha_x, real alpha_y)
     return 0.5f/kmax(mu*(mu + ksqrt(1 + mu*mu)), REAL_MIN);
 }
 
+/* The share of the facets, by projected area, whose tan^2 is above tan2, and the tan2 of a share; rest = 1 - share. */
+KERNEL real ggx_share_beyond(real tan2) { return 1/(1 + tan2); }
+KERNEL real ggx_tan2_beyond(real share, real rest) { return rest/share; }
+
 /* A normal with density D cos_m: tan = alpha sqrt(u.x/(1 - u.x)).  [cs500, sampling of GGX]. */
 KERNEL real3 ggx_sample_ndf(real ux, real uy, real alpha_x, real alpha_y)
 {

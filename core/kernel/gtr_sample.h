@@ -59,6 +59,20 @@ KERNEL real gtr_tan2(real alpha2, real lift, real Y)
     return alpha2*kexpm1(kmax(lift, 0))/kmax(-kexpm1(-Y), REAL_MIN/REAL_EPSILON);
 }
 
+/* The share of the facets, by projected area, whose tan^2/alpha^2 before the stretch is above tan2, and the tan2 of a
+ * share; rest = 1 - share. */
+KERNEL real gtr_share_beyond(real tan2, gtr_shape g)
+{
+    real Y = gtr_minus_log_s(g, g.alpha*g.alpha*tan2, 1);
+    return kexp(g.excess*(Y - g.log_range))*(kexpm1(-g.excess*Y)/kexpm1(-g.excess*g.log_range));
+}
+
+KERNEL real gtr_tan2_beyond(real rest, gtr_shape g)
+{
+    real2 Y = gtr_quantile(g.excess, g.log_range, rest);
+    return gtr_tan2(1, Y.x, Y.y);
+}
+
 /* A normal with density D cos_m, of any length.  [disney, 2, 9] in its safe form. */
 KERNEL real3 gtr_sample_ndf(real ux, real uy, gtr_shape g)
 {

@@ -2,6 +2,8 @@
  *
  *     f(wi,wo) = kd/pi + D(wm) G2(wi,wo) F(wi.wm) / (4 cos_i cos_o)                        [cs500, BRDF]
  *
+ * with the light of several bounces between facets added or not (energy.h).
+ *
  * [cs500]   CS500 Project 3: EvalScattering, PdfBrdf, SampleBrdf.
  * [bonn]    Zingsheim, BRDF Models, section 5: V = G2/(4 cos_i cos_o) without trigonometry.
  * [heitz14] Heitz, Understanding the masking-shadowing function in microfacet-based BRDFs, JCGT 2014.
@@ -15,6 +17,7 @@
 
 #include "bsdf.h"
 #include "distribution.h"
+#include "energy.h"
 #include "fresnel.h"
 
 /* The order of the choices in the parameter tables. */
@@ -29,8 +32,9 @@ typedef struct microfacet_params {
     real3 kd;        /* diffuse reflectance */
     real p_diffuse;  /* probability of choosing the Lambertian lobe */
     int has_diffuse; /* whether kd is not 0 */
-    int is_one;      /* whether samples have one lobe: visible normals, exact masking, no kd */
+    int is_one;      /* whether samples have one lobe: visible normals, exact masking, one bounce, no kd */
     int g2, sampling;
+    energy ms;
 } microfacet_params;
 
 /* The specular term at a pair of directions, but for Fresnel's. */
@@ -96,19 +100,39 @@ KERNEL real specular_ndf_pdf(specular_term s)
 KERNEL real3 microfacet_eval(microfacet_params p, real3 wi, real3 wo)
 {
     specular_term s = specular_at(p.d, p.g2, wi, wo);
-    real3 shine     = scale3(specular_f(s, wi), fresnel_reflectance(p.F, s.cos_d));
+    real3 single    = scale3(specular_f(s, wi), fresnel_reflectance(p.F, s.cos_d));
+    real3 shine     = p.ms.kind == ENERGY_SINGLE ? single : energy_complete(p.ms, single, wi, wo);
     real3 both      = madd3(shine, INV_PI*wi.z, p.kd);
     real3 f         = select3(p.has_diffuse, both, shine);
     return select3(is_above(wi, wo), f, splat3(0));
 }
 
-/* Density of the mixture's sampler.  [cs500, PdfBrdf]: p_d P_d + p_r P_r. */
+/* The part of specular samples that the lobe of several bounces gets. */
+KERNEL real microfacet_p_multi(microfacet_params p, real3 wo)
+{
+    return p.ms.kind == ENERGY_SINGLE ? (real)0 : energy_probability(p.ms, wo);
+}
+
+/* What is uniform again of the number that chooses the lobe, where it chooses the mirror directions; below 0 where it
+ * chooses another. */
+KERNEL real microfacet_rest_of(microfacet_params p, real3 wo, real u)
+{
+    real specular = p.has_diffuse ? (u - p.p_diffuse)/(1 - p.p_diffuse) : u;
+    real p_multi  = microfacet_p_multi(p, wo);
+    real mirrored = (specular - p_multi)/kmax(1 - p_multi, REAL_EPSILON);
+    return p.ms.kind == ENERGY_SINGLE ? specular : mirrored;
+}
+
+/* Density of the mixture's sampler.  [cs500, PdfBrdf]: p_d P_d + p_r P_r, where P_r has a part for the lobe of
+ * several bounces. */
 KERNEL real microfacet_pdf(microfacet_params p, real3 wi, real3 wo)
 {
     specular_term s = specular_at(p.d, p.g2, wi, wo);
     real all        = specular_ndf_pdf(s);
     real visible    = specular_visible_pdf(p.d, s, wo);
-    real P_r        = p.sampling == SAMPLING_NDF ? all : visible;
+    real single     = p.sampling == SAMPLING_NDF ? all : visible;
+    real p_multi    = microfacet_p_multi(p, wo);
+    real P_r        = p.ms.kind == ENERGY_SINGLE ? single : mix(single, energy_pdf(p.ms, wi), p_multi);
     real both       = p.p_diffuse*(INV_PI*wi.z) + (1 - p.p_diffuse)*P_r;
     real pdf        = p.has_diffuse ? both : P_r;
     return keep_if(is_above(wi, wo), pdf);
@@ -128,22 +152,19 @@ KERNEL bsdf_sample microfacet_sample_visible(microfacet_params p, real3 wo, real
     return complete_sample(wi, weight, pdf, is_valid, LOBE_REFLECTION | LOBE_GLOSSY);
 }
 
-/* A direction of the mixture: the cosine direction, or wo mirrored about a normal.  [cs500, SampleBrdf]. */
+/* A direction of the mixture: the cosine direction, one of several bounces, or wo mirrored about a normal.
+ * [cs500, SampleBrdf]. */
 KERNEL bsdf_sample microfacet_sample_mixture(microfacet_params p, real3 wo, real3 u, real3 m)
 {
     int is_diffuse = u.z < p.p_diffuse;
-    real3 wi       = select3(is_diffuse, sample_cosine(u.x, u.y), reflect(wo, m));
+    int is_multi   = (p.ms.kind != ENERGY_SINGLE) & !is_diffuse & (microfacet_rest_of(p, wo, u.z) < 0);
+    real3 mirrored = select3(is_multi, energy_sample(p.ms, u.x, u.y), reflect(wo, m));
+    real3 wi       = select3(is_diffuse, sample_cosine(u.x, u.y), mirrored);
     real pdf       = microfacet_pdf(p, wi, wo);
-    int is_valid   = (pdf > REAL_MIN) & (is_diffuse | (dot3(wo, m) > 0));
+    int is_valid   = (pdf > REAL_MIN) & (is_diffuse | is_multi | (dot3(wo, m) > 0));
     real inv       = 1/(is_valid ? pdf : (real)1);
     return complete_sample(wi, scale3(inv, microfacet_eval(p, wi, wo)), pdf, is_valid,
                            LOBE_REFLECTION | (is_diffuse ? LOBE_DIFFUSE : LOBE_GLOSSY));
-}
-
-/* What is uniform again of the number that chooses the lobe, where it chooses the specular one. */
-KERNEL real microfacet_number_left(microfacet_params p, real u)
-{
-    return p.has_diffuse ? (u - p.p_diffuse)/(1 - p.p_diffuse) : u;
 }
 
 /* The sample about a normal that is already drawn. */
@@ -155,7 +176,7 @@ KERNEL bsdf_sample microfacet_sample_about(microfacet_params p, real3 wo, real3 
 KERNEL bsdf_sample microfacet_sample(microfacet_params p, real3 wo, real3 u)
 {
     real3 m = select3(p.sampling == SAMPLING_NDF, distribution_sample_ndf(p.d, u.x, u.y),
-                      distribution_sample_vndf(p.d, wo, u.x, u.y, microfacet_number_left(p, u.z)));
+                      distribution_sample_vndf(p.d, wo, u.x, u.y, microfacet_rest_of(p, wo, u.z)));
     return microfacet_sample_about(p, wo, u, m);
 }
 
@@ -182,7 +203,9 @@ KERNEL real3 microfacet_terms(microfacet_params p, real3 m)
 #define MICROFACET_NDF       4 /* all normals, exact masking; no conductor */
 #define MICROFACET_PUBLISHED 5 /* all normals, the masking that the paper prints; no conductor */
 #define MICROFACET_RARE      6 /* everything else, Disney's anisotropic gtr too; chooses as it runs */
-#define MICROFACET_GROUPS    7
+#define MICROFACET_MULTI     7 /* GGX and GTR as USUAL, isotropic, with the lobe of several bounces */
+#define MICROFACET_ENERGY    8 /* all else with that lobe, or scaled; chooses as it runs */
+#define MICROFACET_GROUPS    9
 
 KERNEL int microfacet_variant(microfacet_params p)
 {
@@ -191,11 +214,15 @@ KERNEL int microfacet_variant(microfacet_params p)
     int is_published = p.d.masking == MASKING_PUBLISHED;
     int is_usual     = (is_ggx | (p.d.kind == NDF_GTR)) & (p.F.kind == FRESNEL_SCHLICK) & (p.g2 == G2_CORRELATED);
     int one          = (is_metal & is_ggx) ? MICROFACET_METAL : (is_usual ? MICROFACET_USUAL : MICROFACET_PURE);
-    int all     = (is_published & !is_ggx) ? MICROFACET_PUBLISHED : (is_published ? MICROFACET_RARE : MICROFACET_NDF);
-    int visible = (is_ggx & !is_published) ? MICROFACET_MIXED : MICROFACET_RARE;
-    int several = (is_metal | distribution_is_disney(p.d)) ? MICROFACET_RARE
-                                                           : (p.sampling == SAMPLING_NDF ? all : visible);
-    return MICROFACET_GROUPS*p.d.kind + (p.is_one ? one : several);
+    int all      = (is_published & !is_ggx) ? MICROFACET_PUBLISHED : (is_published ? MICROFACET_RARE : MICROFACET_NDF);
+    int visible  = (is_ggx & !is_published) ? MICROFACET_MIXED : MICROFACET_RARE;
+    int several  = (is_metal | distribution_is_disney(p.d)) ? MICROFACET_RARE
+                                                            : (p.sampling == SAMPLING_NDF ? all : visible);
+    int single   = p.is_one ? one : several;
+    int is_multi = is_usual & (p.ms.kind == ENERGY_MULTI) & p.ms.is_isotropic & !p.has_diffuse & !is_published &
+                   (p.sampling == SAMPLING_VNDF) & !distribution_is_disney(p.d);
+    int bounces = is_multi ? MICROFACET_MULTI : MICROFACET_ENERGY;
+    return MICROFACET_GROUPS*p.d.kind + (p.ms.kind == ENERGY_SINGLE ? single : bounces);
 }
 
 /* p with the fields that are the same throughout a variant set to constants. */
@@ -203,11 +230,13 @@ KERNEL microfacet_params microfacet_fix(microfacet_params p, int variant)
 {
     int group           = variant%MICROFACET_GROUPS;
     int kind            = variant/MICROFACET_GROUPS;
-    int is_usual        = group == MICROFACET_USUAL;
+    int is_multi        = group == MICROFACET_MULTI;
+    int is_usual        = (group == MICROFACET_USUAL) | is_multi;
     int is_metal        = group == MICROFACET_METAL;
-    int is_one          = is_usual | is_metal | (group == MICROFACET_PURE);
-    int is_any          = (group == MICROFACET_RARE) | ((group == MICROFACET_PURE) & (kind != NDF_GGX));
-    int is_rare         = group == MICROFACET_RARE;
+    int is_one          = (is_usual & !is_multi) | is_metal | (group == MICROFACET_PURE);
+    int is_energy       = group == MICROFACET_ENERGY;
+    int is_any          = (group == MICROFACET_RARE) | is_energy | ((group == MICROFACET_PURE) & (kind != NDF_GGX));
+    int is_rare         = (group == MICROFACET_RARE) | is_energy;
     int is_published    = group == MICROFACET_PUBLISHED;
     int is_all          = is_published | (group == MICROFACET_NDF);
     int clear           = p.F.kind == FRESNEL_CONDUCTOR ? FRESNEL_SCHLICK : p.F.kind; /* says that it is none */
@@ -220,7 +249,10 @@ KERNEL microfacet_params microfacet_fix(microfacet_params p, int variant)
     q.F.kind            = is_metal ? FRESNEL_CONDUCTOR : other;
     q.g2                = is_usual ? G2_CORRELATED : p.g2;
     q.is_one            = is_one;
-    q.has_diffuse       = is_one ? 0 : (group == MICROFACET_MIXED ? 1 : p.has_diffuse);
+    q.has_diffuse       = is_one | is_multi ? 0 : (group == MICROFACET_MIXED ? 1 : p.has_diffuse);
+    q.p_diffuse         = is_multi ? (real)0 : p.p_diffuse;
+    q.ms.kind           = is_energy ? ENERGY_SCALED : (is_multi ? ENERGY_MULTI : ENERGY_SINGLE); /* SCALED: either */
+    q.ms.is_isotropic   = is_multi ? 1 : p.ms.is_isotropic;
     return q;
 }
 
@@ -229,6 +261,7 @@ KERNEL microfacet_params microfacet_fix(microfacet_params p, int variant)
     CASE(name, 0)                                                                                                      \
     CASE(name, 1)                                                                                                      \
     CASE(name, 2)                                                                                                      \
-    CASE(name, 3) CASE(name, 4) CASE(name, 6) CASE(name, 10) CASE(name, 11) CASE(name, 12) CASE(name, 13)              \
-        CASE(name, 17) CASE(name, 18) CASE(name, 19) CASE(name, 20) CASE(name, 21) CASE(name, 24) CASE(name, 25)       \
-            CASE(name, 26) CASE(name, 27)
+    CASE(name, 3)                                                                                                      \
+    CASE(name, 4) CASE(name, 6) CASE(name, 7) CASE(name, 8) CASE(name, 12) CASE(name, 13) CASE(name, 14)               \
+        CASE(name, 15) CASE(name, 17) CASE(name, 21) CASE(name, 22) CASE(name, 23) CASE(name, 24) CASE(name, 26)       \
+            CASE(name, 27) CASE(name, 30) CASE(name, 31) CASE(name, 32) CASE(name, 33) CASE(name, 34) CASE(name, 35)

@@ -18,6 +18,15 @@ typedef struct phong_shape {
     real beta_inverse; /* 1/B(1/2, exponent/2 + 1) */
 } phong_shape;
 
+KERNEL phong_shape phong_shape_of(real exponent)
+{
+    real half_n = 0.5f*exponent + 1;
+    phong_shape s;
+    s.exponent     = exponent;
+    s.beta_inverse = half_n*kgamma_half_ratio(half_n)*INV_SQRT_PI;
+    return s;
+}
+
 /* D at the direction of m, 1/sr; m need not be a unit vector.  [cs500, D_p], cos^n written as
  * exp(-n/2 log1p(tan^2)), exact near the normal; a stretch divides the density of slopes by its determinant:
  * D cos_m^4 = P22, [heitz14]. */
@@ -59,6 +68,18 @@ KERNEL real phong_Lambda(real3 v, phong_shape shape, real alpha_x, real alpha_y)
 /* Beckmann's cotangent in place of the stretched one, for the fit that is made for Beckmann:
  * a = sqrt(n/2 + 1)/tan.  [cs500, G_1 of Phong]. */
 KERNEL real phong_fit_scale(phong_shape shape) { return ksqrt(0.5f*shape.exponent + 1); }
+
+/* The share of the facets, by projected area, whose tan^2 is above tan2, and the tan2 of a share; rest = 1 - share. */
+KERNEL real phong_share_beyond(real tan2, phong_shape shape)
+{
+    return kexp(-(0.5f*shape.exponent + 1)*klog1p(tan2));
+}
+
+KERNEL real phong_tan2_beyond(real share, real rest, phong_shape shape)
+{
+    real ln = share > 0.5f ? klog1p(-rest) : klog(share);
+    return kexpm1(-ln/(0.5f*shape.exponent + 1));
+}
 
 /* A normal with density D cos_m: cos = u.x^(1/(n+2)).  [cs500, sampling of Phong, exponent corrected];
  * written for the tangent, tan^2 = u.x^(-2/(n+2)) - 1, which stays accurate for large n. */

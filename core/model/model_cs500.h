@@ -40,7 +40,7 @@ static inline microfacet_params cs500_prepare(const facet_material *m)
     const real exponent = prepare_number(m, "exponent");
     if (p.d.kind == NDF_PHONG) {
         const real converted = kclamp(2/(alpha*alpha) - 2, 0, 1e6f);
-        p.d.phong = prepare_phong_shape(facet_material_given(m, "alpha") ? converted : exponent);
+        p.d.phong = phong_shape_of(facet_material_given(m, "alpha") ? converted : exponent);
     } else {
         p.d.alpha_x = facet_material_given(m, "exponent") ? ksqrt(2/(exponent + 2)) : alpha;
         p.d.alpha_y = p.d.alpha_x;

@@ -16,6 +16,7 @@ static inline microfacet_params ggx_prepare(const facet_material *m)
 {
     microfacet_params p = microfacet_prepare(m, NDF_GGX);
     prepare_alpha(m, &p.d);
+    prepare_energy(m, &p);
     return p;
 }
 #endif

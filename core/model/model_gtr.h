@@ -90,6 +90,7 @@ static inline microfacet_params gtr_prepare(const facet_material *m)
     p.d.gtr = gtr_shape_of(p.d.alpha_x, p.d.alpha_y, gamma, prepare_choice(m, "anisotropy"));
     p.d.spline = gtr_spline_at(gamma);
     p.is_one = p.is_one && !distribution_is_disney(p.d);
+    prepare_energy(m, &p);
     return p;
 }
 #endif

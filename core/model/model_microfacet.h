@@ -7,6 +7,7 @@
 
 #include "../kernel/microfacet.h"
 #include "../metals.h"
+#include "read_energy.h"
 #include "read_material.h"
 
 #ifdef FACET_PARAMETERS
@@ -30,9 +31,17 @@
          "1",                                                                                                          \
          "exact|published",                                                                                            \
          "Smith's G1, or the fit that the paper prints"},                                                              \
+        {"sampling",                                                                                                   \
+         FACET_CHOICE,                                                                                                 \
+         0,                                                                                                            \
+         SAMPLING_LAST,                                                                                                \
+         {0, 0, 0},                                                                                                    \
+         "1",                                                                                                          \
+         SAMPLING_CHOICES,                                                                                             \
+         "normals that samples are drawn from"},                                                                       \
     {                                                                                                                  \
-        "sampling", FACET_CHOICE, 0, SAMPLING_LAST, {0, 0, 0}, "1", SAMPLING_CHOICES,                                  \
-            "normals that samples are drawn from"                                                                      \
+        "energy", FACET_CHOICE, 0, 2, {0, 0, 0}, "1", "single|multi|scaled",                                           \
+            "one bounce, or all: a reciprocal lobe added, or the lobe scaled"                                          \
     }
 #define ALPHA_PARAMETERS                                                                                               \
     {"alpha", FACET_NUMBER, 1e-4, 4, {0.3, 0, 0}, "1", "", "roughness along both tangents"},                           \
@@ -86,6 +95,46 @@ static inline microfacet_params microfacet_prepare(const facet_material *m, int 
     p.is_one = p.sampling == SAMPLING_VNDF && p.d.masking == MASKING_EXACT && !p.has_diffuse;
     p.p_diffuse = kd > 0 ? kmin(kd/(kd + ks), 0.875f) : (real)0;
     return p;
+}
+
+/* An average loss that is 0 to float's precision, so that F_ms over it stays finite. */
+#define LOSS_SMALLEST ((real)1e-20)
+
+/* F_ms of one channel.  [kulla17], see kernel/energy.h. */
+static inline real multiple_bounces(real F, real loss)
+{
+    return F*F*(1 - loss)/(1 - F*loss);
+}
+
+/* The light of several bounces; the last step, when the distribution is complete. */
+static inline void prepare_energy(const facet_material *m, microfacet_params *p)
+{
+    const int kind = prepare_choice(m, "energy");
+    if (kind == ENERGY_SINGLE) return;
+    const energy_surface surface = {.kind = p->d.kind,
+                                    .masking = p->d.masking,
+                                    .g2 = p->g2,
+                                    .alpha_x = p->d.alpha_x,
+                                    .alpha_y = p->d.alpha_y,
+                                    .exponent = p->d.phong.exponent,
+                                    .gamma = p->d.gtr.gamma,
+                                    .anisotropy = p->d.gtr.anisotropy};
+    energy_fit fit;
+    facet_energy_fit_surface(&surface, &fit);
+    p->ms = energy_of_fit(&fit);
+    p->ms.kind = kind;
+    p->is_one = 0;
+    /* F_ms; 1 where F is, whatever the roughness. */
+    const real3 average = fresnel_average(p->F);
+    const real loss = kmax((real)fit.loss_average, LOSS_SMALLEST);
+    const real3 multiple = make3(multiple_bounces(average.x, loss), multiple_bounces(average.y, loss),
+                                 multiple_bounces(average.z, loss));
+    if (kind == ENERGY_MULTI) {
+        p->ms.added = scale3(INV_PI/loss, multiple);
+        p->ms.share = mean3(multiple)/kmax(mean3(average), REAL_MIN);
+    } else {
+        p->ms.scale = fresnel_reflectance(p->F, 1);
+    }
 }
 
 /* The roughness of a distribution that has one. */

@@ -14,12 +14,6 @@ static const facet_parameter phong_parameters[] = {
 #endif
 
 #ifdef FACET_PREPARE
-static inline phong_shape prepare_phong_shape(real exponent)
-{
-    const real half_n = 0.5f*exponent + 1;
-    return (phong_shape){.exponent = exponent, .beta_inverse = half_n*kgamma_half_ratio(half_n)*INV_SQRT_PI};
-}
-
 /* Different roughness along x and y: the exponent is that of their geometric mean, and the slopes are
  * stretched by the ratio to it. */
 static inline microfacet_params phong_prepare(const facet_material *m)
@@ -34,7 +28,8 @@ static inline microfacet_params phong_prepare(const facet_material *m)
         p.d.alpha_x = alpha_x/mean;
         p.d.alpha_y = alpha_y/mean;
     }
-    p.d.phong = prepare_phong_shape(exponent);
+    p.d.phong = phong_shape_of(exponent);
+    prepare_energy(m, &p);
     return p;
 }
 #endif

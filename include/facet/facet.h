@@ -125,10 +125,10 @@ FACET_API facet_status facet_material_set(facet_material *material, const char *
 /* A material prepared for evaluation, in float and in double.  The caller owns the storage; the
  * content is private and valid for one version of the library on one machine; copy it freely. */
 typedef struct facet_bsdf {
-    double state[64];
+    double state[80];
 } facet_bsdf;
 typedef struct facet_bsdf64 {
-    double state[256];
+    double state[320];
 } facet_bsdf64;
 
 FACET_API facet_status facet_bsdf_prepare(const facet_material *material, facet_bsdf *bsdf, facet_error *why);
