@@ -40,6 +40,9 @@ static const char *const specs[] = {
     "disney roughness=.4 clearcoat=1",
     "disney clearcoat=1 coat_masking=exact",
     "glass",
+    "glass alpha=.2",
+    "glass alpha=.2 wall=thin",
+    "glass alpha=.2 ndf=beckmann",
     "ward alpha=.2",
 };
 

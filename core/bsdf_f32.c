@@ -18,12 +18,25 @@ facet_bsdf facet_bsdf_metallic_roughness(const float base_color[3], float metall
     return bsdf;
 }
 
-facet_bsdf facet_bsdf_glass(float ior, const float tint[3], int is_thin)
+facet_bsdf facet_bsdf_glass(float ior, float alpha, const float tint[3], int is_thin)
 {
-    prepared p = {.kernel = KERNEL_glass};
-    p.of.glass = (glass_params){.eta = ior, .tint = load3(tint), .wall = is_thin ? WALL_THIN : WALL_SOLID};
+    prepared p;
+    size_t size;
+    const int wall = is_thin ? WALL_THIN : WALL_SOLID;
+    if (is_rough_interface(ior, alpha)) {
+        p.kernel = KERNEL_rough_dielectric;
+        p.of.rough_dielectric = (rough_dielectric_params){
+            .d = {.kind = NDF_GGX, .alpha_x = alpha, .alpha_y = alpha}, .eta = ior, .tint = load3(tint), .wall = wall};
+        p.variant = rough_dielectric_variant(p.of.rough_dielectric);
+        size = sizeof p.of.rough_dielectric;
+    } else {
+        p.kernel = KERNEL_glass;
+        p.of.glass = (glass_params){.eta = ior, .tint = load3(tint), .wall = wall};
+        p.variant = 0;
+        size = sizeof p.of.glass;
+    }
     facet_bsdf bsdf;
-    memcpy(&bsdf, &p, offsetof(prepared, of) + sizeof p.of.glass);
+    memcpy(&bsdf, &p, offsetof(prepared, of) + size);
     return bsdf;
 }
 

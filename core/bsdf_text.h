@@ -43,15 +43,20 @@ facet_status NAME(prepare)(const facet_material *material, STORAGE *bsdf, facet_
     if (status) return status;
     prepared p;
     memset(&p, 0, sizeof p); /* padding included: equal materials give equal bytes */
+#define PREPARE_WITH(kernel_name, parameters)                                                                          \
+    p.kernel = KERNEL_##kernel_name;                                                                                   \
+    p.of.kernel_name = parameters;                                                                                     \
+    p.variant = kernel_name##_variant(p.of.kernel_name);
     switch (material->model) {
 #define PREPARE_ROW(name, kernel_name, summary, source)                                                                \
-    case MODEL_##name:                                                                                                 \
-        p.kernel = KERNEL_##kernel_name;                                                                               \
-        p.of.kernel_name = name##_prepare(material);                                                                   \
-        p.variant = kernel_name##_variant(p.of.kernel_name);                                                           \
-        break;
+    case MODEL_##name: PREPARE_WITH(kernel_name, name##_prepare(material)) break;
         FACET_MODELS(PREPARE_ROW)
     }
+#define SECOND_ROW(name, kernel_name)                                                                                  \
+    if (material->model == MODEL_##name && name##_needs_##kernel_name(material)) {                                     \
+        PREPARE_WITH(kernel_name, name##_prepare_##kernel_name(material))                                              \
+    }
+    FACET_SECOND_KERNELS(SECOND_ROW)
     memset(bsdf, 0, sizeof *bsdf);
     memcpy(bsdf, &p, sizeof p);
     return FACET_OK;

@@ -214,8 +214,6 @@ static bool read_transmission(gltf *g, const json_place *place, size_t number, m
         return json_fail(&distance_place, FACET_BAD_VALUE, "is %.9g; must be above 0", (double)distance);
     m->is_thin = m->transmission > 0 && !(thickness > 0);
     if (!(m->transmission > 0)) return true;
-    if (m->roughness > 0)
-        gltf_note_material(g, number, "roughness of KHR_materials_transmission is", "rendered as smooth glass");
     if (map.value)
         gltf_note_material(g, number, "KHR_materials_transmission's transmissionTexture is",
                            "rendered with the factor alone");

@@ -168,11 +168,11 @@ static void gather_emission(const path_context *c, path *p, const surface *at)
     gather(p, at->emission, implicit_weight(c, p, pdf));
 }
 
-/* Whether wi and wo lie on the same side of the true surface, as reflection asks; interpolated normals can
- * claim otherwise. */
-static bool is_same_side(const surface *at, real3 wi, real3 wo)
+/* Whether wi and wo lie on the same side of the true surface for a reflection, and on opposite ones for light that
+ * goes through; interpolated normals can claim otherwise. */
+static bool is_true_side(const surface *at, real3 wi, real3 wo, bool is_through)
 {
-    return dot3(at->normal, wi)*dot3(at->normal, wo) > 0;
+    return (dot3(at->normal, wi)*dot3(at->normal, wo) > 0) != is_through;
 }
 
 /* Explicit light connection: prepares the shadow ray.  [cs500, "Explicit light connection"], corrected: p is a
@@ -185,7 +185,8 @@ static void prepare_connection(const path_context *c, path *p, const surface *at
     if (c->settings->strategy == STRATEGY_IMPLICIT && !s.is_delta) return;
     const real3 wi_local = to_local(&at->shading, s.direction);
     const float wi[3] = {wi_local.x, wi_local.y, wi_local.z}, wo[3] = {wo_local.x, wo_local.y, wo_local.z};
-    if (!at->transmits && !is_same_side(at, s.direction, to_world(&at->shading, wo_local))) return;
+    const bool is_through = at->transmits && wi_local.z*wo_local.z < 0;
+    if (!is_true_side(at, s.direction, to_world(&at->shading, wo_local), is_through)) return;
     float f[3];
     facet_bsdf_eval(&at->bsdf, wi, wo, f);
     if (!(f[0] > 0 || f[1] > 0 || f[2] > 0)) return;
@@ -208,7 +209,9 @@ static bool scatter(const path_context *c, path *p, const surface *at, real3 wo_
     const facet_sample s = facet_bsdf_sample(&at->bsdf, wo, v);
     if (!(s.pdf > 0)) return false;
     const real3 wi = normalize3(to_world(&at->shading, vector_of(s.wi)));
-    if ((s.lobe & FACET_REFLECTION) && !is_same_side(at, wi, to_world(&at->shading, wo_local))) return false;
+    const bool is_through = s.lobe & FACET_TRANSMISSION;
+    if (!(is_through && s.lobe & FACET_DELTA) && !is_true_side(at, wi, to_world(&at->shading, wo_local), is_through))
+        return false;
     p->throughput = mul3(p->throughput, vector_of(s.weight));
     if (!(max_of3(p->throughput) > 0)) return false;
     p->eta_scale *= s.eta*s.eta;

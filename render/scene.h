@@ -55,7 +55,7 @@ typedef struct material {
     float ior;                 /* KHR_materials_ior, 1.5 */
     float specular;            /* KHR_materials_specular: factor, 1 */
     float specular_color[3];   /* and colour factor, 1,1,1 */
-    float transmission;        /* KHR_materials_transmission factor, 0; smooth glass when > 0 */
+    float transmission;        /* KHR_materials_transmission factor, 0; glass when > 0 */
     bool is_thin;              /* transmission without KHR_materials_volume: no refraction */
     float normal_scale;        /* 1 */
     float emission[3];         /* emissiveFactor * emissiveStrength: radiance [W/(m^2 sr)] */

@@ -135,7 +135,7 @@ static void set_material(surface *at, const scene *s, const mesh *m, const mater
     }
     at->transmits = choice < mat->transmission*(1 - metallic);
     if (at->transmits) {
-        at->bsdf = facet_bsdf_glass(mat->ior, base.c, mat->is_thin);
+        at->bsdf = facet_bsdf_glass(mat->ior, roughness*roughness, base.c, mat->is_thin);
         return;
     }
     const float root_F0 = (mat->ior - 1)/(mat->ior + 1);

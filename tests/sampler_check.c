@@ -5,6 +5,7 @@
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdlib.h>
 
@@ -14,14 +15,22 @@
 #include "tests/draws.h"
 #include "tests/quadrature.h"
 
-enum { BANDS = 20, SECTORS = 20, CELLS = BANDS*SECTORS, PILOT = 20000, CHUNK = 4096, PIECES = 32 };
+enum {
+    BANDS = 20, /* of one hemisphere */
+    SECTORS = 20,
+    MOST_CELLS = 2*BANDS*SECTORS,
+    PILOT = 20000,
+    CHUNK = 4096,
+    PIECES = 32
+};
 
 #define PI 3.14159265358979323846
 
 /* Azimuths are counted from that of the mean direction, so that no lobe lies across the cut at half a turn. */
 typedef struct cell_grid {
     double mean_x, mean_y; /* not both 0 */
-    double cosines[BANDS + 1], azimuths[BANDS][SECTORS + 1];
+    int n_bands;           /* of the upper hemisphere, or of the lower one and then the upper one */
+    double cosines[2*BANDS + 1], azimuths[2*BANDS][SECTORS + 1];
 } cell_grid;
 
 typedef struct chunk {
@@ -67,7 +76,7 @@ static double azimuth_of(const cell_grid *grid, const chunk *c, int i)
 
 static int cell_of(const cell_grid *grid, const chunk *c, int i)
 {
-    const int band = interval_of(grid->cosines, BANDS, (double)c->data[2][i]);
+    const int band = interval_of(grid->cosines, grid->n_bands, (double)c->data[2][i]);
     return band*SECTORS + interval_of(grid->azimuths[band], SECTORS, azimuth_of(grid, c, i));
 }
 
@@ -85,6 +94,16 @@ static void quantiles(double *values, int n, double low, double high, double *bo
     borders[n_parts] = high;
     for (int k = 1; k < n_parts; k++)
         borders[k] = n > 0 ? values[(long)n*k/n_parts] : low + (high - low)*k/n_parts;
+}
+
+/* The borders of a hemisphere's bands, from those of the cosines z[n] that lie in it. */
+static void place_bands(const double *z, int n, bool is_upper, double *borders)
+{
+    static _Thread_local double values[PILOT];
+    int m = 0;
+    for (int i = 0; i < n; i++)
+        if ((z[i] >= 0) == is_upper) values[m++] = z[i];
+    quantiles(values, m, is_upper ? 0 : -1, is_upper ? 1 : 0, borders, BANDS);
 }
 
 static void place_borders(cell_grid *grid, sampler draw_some, const void *context, const float wo[3], uint64_t seed)
@@ -108,12 +127,12 @@ static void place_borders(cell_grid *grid, sampler draw_some, const void *contex
                 phi[n++] = azimuth_of(grid, &c, i);
             }
     }
-    for (int i = 0; i < n; i++) values[i] = z[i];
-    quantiles(values, n, 0, 1, grid->cosines, BANDS);
-    for (int band = 0; band < BANDS; band++) {
+    if (grid->n_bands > BANDS) place_bands(z, n, false, grid->cosines);
+    place_bands(z, n, true, grid->cosines + grid->n_bands - BANDS);
+    for (int band = 0; band < grid->n_bands; band++) {
         int m = 0;
         for (int i = 0; i < n; i++)
-            if (interval_of(grid->cosines, BANDS, z[i]) == band) values[m++] = phi[i];
+            if (interval_of(grid->cosines, grid->n_bands, z[i]) == band) values[m++] = phi[i];
         quantiles(values, m, -PI, PI, grid->azimuths[band], SECTORS);
     }
 }
@@ -153,7 +172,7 @@ static int pieces_of(const double *borders, int n, int k, double *pieces)
 static double cell_mass(const cell_grid *grid, int band, int sector, const density_of *of)
 {
     double z[PIECES + 1], phi[PIECES + 1], mass = 0;
-    const int rows = pieces_of(grid->cosines, BANDS, band, z);
+    const int rows = pieces_of(grid->cosines + band/BANDS*BANDS, BANDS, band%BANDS, z);
     const int columns = pieces_of(grid->azimuths[band], SECTORS, sector, phi);
     for (int r = 0; r < rows; r++)
         for (int c = 0; c < columns; c++) {
@@ -168,28 +187,30 @@ chi_square sampler_check(sampler draw_some, const void *context, const facet_bsd
                          uint64_t seed)
 {
     static _Thread_local cell_grid grid;
-    static _Thread_local double expected[CELLS + 1], observed[CELLS + 1];
+    static _Thread_local double expected[MOST_CELLS + 1], observed[MOST_CELLS + 1];
     static _Thread_local chunk c;
+    grid.n_bands = facet_bsdf64_lobes(density) & FACET_TRANSMISSION ? 2*BANDS : BANDS;
+    const int n_cells = grid.n_bands*SECTORS;
     place_borders(&grid, draw_some, context, wo, seed*1000003 + 1);
     const density_of of = {density, {(double)wo[0], (double)wo[1], (double)wo[2]}, atan2(grid.mean_y, grid.mean_x)};
-    double below = 1;
-    for (int i = 0; i < CELLS; i++) {
+    double lost = 1;
+    for (int i = 0; i < n_cells; i++) {
         const int band = i/SECTORS, sector = i%SECTORS;
         const double mass = cell_mass(&grid, band, sector, &of);
-        below -= mass;
+        lost -= mass;
         expected[i] = mass*n;
         observed[i] = 0;
     }
-    expected[CELLS] = fmax(below, 0)*n;
-    observed[CELLS] = 0;
+    expected[n_cells] = fmax(lost, 0)*n;
+    observed[n_cells] = 0;
     for (int start = 0; start < n; start += CHUNK) {
         const int count = n - start < CHUNK ? n - start : CHUNK;
         draw_some(context, wo, (seed*1000003 + 2)*1000003 + (uint64_t)start, count, outputs(&c));
-        for (int i = 0; i < count; i++) observed[c.data[3][i] > 0 ? cell_of(&grid, &c, i) : CELLS]++;
+        for (int i = 0; i < count; i++) observed[c.data[3][i] > 0 ? cell_of(&grid, &c, i) : n_cells]++;
     }
     /* What the cubature leaves undecided, its tolerance times the cells, is not zero probability. */
-    if (observed[CELLS] > 0 && below < 2e-8*CELLS) expected[CELLS] = 2e-8*CELLS*n;
-    return chi_square_test(expected, observed, CELLS + 1);
+    if (observed[n_cells] > 0 && lost < 2e-8*n_cells) expected[n_cells] = 2e-8*n_cells*n;
+    return chi_square_test(expected, observed, n_cells + 1);
 }
 
 void check_samplers(const sampler_case *cases, int n_cases)

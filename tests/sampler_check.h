@@ -1,8 +1,8 @@
 /* sampler_check.h: chi-square tests of a material's sampler against its density.
  *
  * Cells are a grid in the cosine and the azimuth of wi whose borders are quantiles of a pilot run, so that each lobe is
- * resolved whatever its width; one more cell takes what falls below the horizon.  The density is integrated over each
- * cell in double precision.
+ * resolved whatever its width, on both sides of the surface if the material transmits; one more cell takes the draws
+ * that give no sample.  The density is integrated over each cell in double precision.
  * SPDX-License-Identifier: MIT */
 #pragma once
 

@@ -105,6 +105,12 @@ def gamma_ratio(s):
     return mp.exp(mp.loggamma(s + mpf(1)/2) - mp.loggamma(s + 1))
 
 
+def stirling_ratio(x):
+    """Gamma(1 + x) over its leading term sqrt(2 pi) (p/e)^p, p = x + 1/2"""
+    p = x + mpf(1)/2
+    return mp.exp(mp.loggamma(1 + x) - p*mp.log(p) + p)/mp.sqrt(2*mp.pi)
+
+
 def erf_inverse_of(w):
     """z >= 0 with 1 - erf(z)^2 = e^-w, by Newton's method in ln erfc(z)."""
     q = mp.exp(-w)/(1 + mp.sqrt(-mp.expm1(-w)))  # 1 - erf z, without cancellation
@@ -131,8 +137,9 @@ def make_fits(is_double):
     s_max = (mp.sqrt(2) - 1)/(mp.sqrt(2) + 1)
     v_max = mp.tan(mp.pi/8)*(1 + mpf(2)**-20)
     r_max = mp.pi/4*(1 + mpf(2)**-10)
-    erfcx_c, mills_c, inv_c, gamma_c = (
-        round_to(CENTRES[name][is_double], 53 if is_double else 24) for name in ("erfcx", "mills", "erfinv", "gamma"))
+    erfcx_c, mills_c, inv_c, gamma_c, stirling_c = (
+        round_to(CENTRES[name][is_double], 53 if is_double else 24)
+        for name in ("erfcx", "mills", "erfinv", "gamma", "stirling"))
     border = mpf(ERFINV_BORDER)
     w_max = mpf("708.5" if is_double else "87.5")
     t_of = lambda s: (s - inv_c)/(s + inv_c)
@@ -171,14 +178,19 @@ def make_fits(is_double):
             lambda t: mp.sqrt(from_centre(t, gamma_c) + mpf(1)/4)*gamma_ratio(from_centre(t, gamma_c)),
             lambda t: 1/(mp.sqrt(from_centre(t, gamma_c) + mpf(1)/4)*gamma_ratio(from_centre(t, gamma_c))),
             (mpf(1)/2 - gamma_c)/(mpf(1)/2 + gamma_c), near_end, DEGREES["gamma"]),
+        Fit("stirling", "Gamma(1 + x)/(sqrt(2 pi) (p/e)^p), p = x + 1/2, of t = (x - c)/(x + c), x >= 1",
+            lambda t: stirling_ratio(from_centre(t, stirling_c)), lambda t: 1/stirling_ratio(from_centre(t, stirling_c)),
+            (1 - stirling_c)/(1 + stirling_c), near_end, DEGREES["stirling"]),
     ]
 
 
 # Centres c and degrees (float, double), chosen by trying: the smallest degree whose error is well below half an ulp of
 # the result.  In double erfinv only starts an iteration, so that 5e-8 is enough.
 ERFINV_BORDER = 5.0
-CENTRES = {"erfcx": (3.0, 4.0), "mills": (2.5, 4.0), "erfinv": (3.0, 4.0), "gamma": (0.7, 0.9)}
-DEGREES = {"erfcx": (11, 24), "mills": (12, 25), "erfinv_near": (9, 9), "erfinv_far": (9, 11), "gamma": (7, 18)}
+CENTRES = {"erfcx": (3.0, 4.0), "mills": (2.5, 4.0), "erfinv": (3.0, 4.0), "gamma": (0.7, 0.9),
+           "stirling": (0.8, 1.25)}
+DEGREES = {"erfcx": (11, 24), "mills": (12, 25), "erfinv_near": (9, 9), "erfinv_far": (9, 11), "gamma": (7, 18),
+           "stirling": (5, 14)}
 
 
 def memoized(f):
@@ -277,6 +289,8 @@ def constants(is_double):
         ("ERFCX_CENTRE", CENTRES["erfcx"][is_double], None),
         ("MILLS_CENTRE", CENTRES["mills"][is_double], None),
         ("GAMMA_CENTRE", CENTRES["gamma"][is_double], None),
+        ("STIRLING_CENTRE", CENTRES["stirling"][is_double], None),
+        ("SQRT_TWO_PI_OVER_E", mp.sqrt(2*mp.pi/mp.e), None),
         ("ERFINV_BORDER", ERFINV_BORDER, None),
         ("ERFINV_CENTRE", CENTRES["erfinv"][is_double], None),
     ]
@@ -295,7 +309,7 @@ def header_text(is_double):
     for name, value, text in constants(is_double):
         comment = f" /* {text} */" if text else ""
         number = literal(round_to(value, bits), is_double)
-        out.append(f"#define {name:<15}{'(' + number + ')' if number.startswith('-') else number}{comment}\n")
+        out.append(f"#define {name + ' ':<15}{'(' + number + ')' if number.startswith('-') else number}{comment}\n")
     for fit, rounded, error, _ in fit_all(is_double):
         x = fit.text.split(" of ")[1][0] if " of " in fit.text else "r"
         names = [f"c{k}" for k in range(len(rounded))]

@@ -22,6 +22,7 @@
 #endif
 
 #include "kmath_basic.h"
+#include "kmath_beta.h"
 #include "kmath_erf.h"
 #include "kmath_exp.h"
 #include "kmath_trig.h"

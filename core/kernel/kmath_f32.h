@@ -21,6 +21,8 @@
 #define ERFCX_CENTRE   3.00000000e+00f
 #define MILLS_CENTRE   2.50000000e+00f
 #define GAMMA_CENTRE   6.99999988e-01f
+#define STIRLING_CENTRE 8.00000012e-01f
+#define SQRT_TWO_PI_OVER_E 1.52034688e+00f
 #define ERFINV_BORDER  5.00000000e+00f
 #define ERFINV_CENTRE  3.00000000e+00f
 
@@ -177,4 +179,16 @@ KERNEL real poly_gamma(real t)
     real c7 = 6.93825277e-05f;
     real t2 = t*t;
     return c0 + t*((c1 + t*c2) + t2*((c3 + t*c4) + t2*((c5 + t*c6) + t2*c7)));
+}
+
+/* Gamma(1 + x)/(sqrt(2 pi) (p/e)^p), p = x + 1/2, of t = (x - c)/(x + c), x >= 1: 0.062 */
+KERNEL real poly_stirling(real t)
+{
+    real c0 = 9.69382584e-01f;
+    real c1 = 3.50945964e-02f;
+    real c2 = -4.29233117e-03f;
+    real c3 = -2.24766511e-04f;
+    real c4 = -6.61884360e-06f;
+    real c5 = 4.65366138e-05f;
+    return c0 + t*(c1 + t*(c2 + t*(c3 + t*(c4 + t*c5))));
 }

@@ -21,6 +21,8 @@
 #define ERFCX_CENTRE   4.0000000000000000e+00
 #define MILLS_CENTRE   4.0000000000000000e+00
 #define GAMMA_CENTRE   9.0000000000000002e-01
+#define STIRLING_CENTRE 1.2500000000000000e+00
+#define SQRT_TWO_PI_OVER_E 1.5203469010662809e+00
 #define ERFINV_BORDER  5.0000000000000000e+00
 #define ERFINV_CENTRE  4.0000000000000000e+00
 
@@ -255,4 +257,27 @@ KERNEL real poly_gamma(real t)
     real t2 = t*t;
     return c0 + t*((c1 + t*c2) + t2*((c3 + t*c4) + t2*((c5 + t*c6) + t2*((c7 + t*c8) + t2*((c9 + t*c10) +
            t2*((c11 + t*c12) + t2*((c13 + t*c14) + t2*((c15 + t*c16) + t2*(c17 + t*c18)))))))));
+}
+
+/* Gamma(1 + x)/(sqrt(2 pi) (p/e)^p), p = x + 1/2, of t = (x - c)/(x + c), x >= 1: 0.38 */
+KERNEL real poly_stirling(real t)
+{
+    real c0 = 9.7687708133905748e-01;
+    real c1 = 3.1579209141928397e-02;
+    real c2 = -1.0952231508575980e-02;
+    real c3 = 3.1087802264407926e-03;
+    real c4 = -7.6402288000329208e-04;
+    real c5 = 1.9606794960260699e-04;
+    real c6 = -5.8650447480526289e-05;
+    real c7 = 1.7996881983515117e-05;
+    real c8 = -5.7132448204768721e-06;
+    real c9 = 1.9835863758409832e-06;
+    real c10 = -6.6417598991682345e-07;
+    real c11 = 2.1422299198619924e-07;
+    real c12 = -5.8972757706862686e-08;
+    real c13 = 7.5306317482976299e-09;
+    real c14 = 3.5061549397083834e-10;
+    real t2 = t*t;
+    return c0 + t*((c1 + t*c2) + t2*((c3 + t*c4) + t2*((c5 + t*c6) + t2*((c7 + t*c8) + t2*((c9 + t*c10) +
+           t2*((c11 + t*c12) + t2*(c13 + t*c14)))))));
 }

@@ -16,19 +16,20 @@ static const facet_parameter phong_parameters[] = {
 #ifdef FACET_PREPARE
 /* Different roughness along x and y: the exponent is that of their geometric mean, and the slopes are
  * stretched by the ratio to it. */
+static inline void prepare_stretched_phong(real alpha_x, real alpha_y, distribution *d)
+{
+    const real mean = ksqrt(alpha_x*alpha_y);
+    d->phong = phong_shape_of(kmax(2/(mean*mean) - 2, 0));
+    d->alpha_x = alpha_x/mean;
+    d->alpha_y = alpha_y/mean;
+}
+
 static inline microfacet_params phong_prepare(const facet_material *m)
 {
     microfacet_params p = microfacet_prepare(m, NDF_PHONG);
-    real exponent = prepare_number(m, "exponent");
-    if (facet_material_given(m, "alpha_x") || facet_material_given(m, "alpha_y")) {
-        const real alpha_x = prepare_number(m, "alpha_x");
-        const real alpha_y = prepare_number(m, "alpha_y");
-        const real mean = ksqrt(alpha_x*alpha_y);
-        exponent = kmax(2/(mean*mean) - 2, 0);
-        p.d.alpha_x = alpha_x/mean;
-        p.d.alpha_y = alpha_y/mean;
-    }
-    p.d.phong = phong_shape_of(exponent);
+    if (facet_material_given(m, "alpha_x") || facet_material_given(m, "alpha_y"))
+        prepare_stretched_phong(prepare_number(m, "alpha_x"), prepare_number(m, "alpha_y"), &p.d);
+    else p.d.phong = phong_shape_of(prepare_number(m, "exponent"));
     prepare_energy(m, &p);
     return p;
 }

@@ -140,8 +140,9 @@ FACET_API facet_status facet_bsdf64_prepare(const facet_material *material, face
 FACET_API facet_bsdf facet_bsdf_metallic_roughness(const float base_color[3], float metallic, float roughness,
                                                    float dielectric_F0, float specular, const float specular_color[3]);
 
-/* The model glass straight from its values.  ior in [0.1, 10], tint in [0,1]. */
-FACET_API facet_bsdf facet_bsdf_glass(float ior, const float tint[3], int is_thin);
+/* The model glass straight from its values.  ior in [0.1, 10]; alpha in [0, 4], of ggx, smooth below 1e-4; tint in
+ * [0,1]. */
+FACET_API facet_bsdf facet_bsdf_glass(float ior, float alpha, const float tint[3], int is_thin);
 
 /* The prepared parameters as 32-bit words, for the shaders of share/facet/glsl (docs/shaders.md): fills words[0..n-1],
  * with 0 past the last, and returns how many there are.  words may be NULL if n is 0. */
@@ -191,7 +192,7 @@ FACET_API facet_sample facet_bsdf_sample(const facet_bsdf *bsdf, const float wo[
 FACET_API facet_sample64 facet_bsdf64_sample(const facet_bsdf64 *bsdf, const double wo[3], const double u[3]);
 
 /* The distribution's own terms at the unit vector m: D(m) [1/sr], Lambda(m) and G1 = 1/(1 + Lambda)
- * with m taken as a direction of view.  All 0 for a model without a distribution (lambert, glass). */
+ * with m taken as a direction of view.  All 0 for a model without a distribution (lambert, smooth glass). */
 typedef struct facet_terms {
     float D, Lambda, G1;
 } facet_terms;

@@ -275,6 +275,27 @@ static void samples_are_the_librarys_and_repeat_by_seed(void **state)
     program_run_free(&run);
 }
 
+/* A stratified mean of sample weights in three numbers against the albedo; 5 sigma of unstratified samples. */
+static void expect_mean_weight(const char *spec, const double wo[3], double albedo, double error)
+{
+    enum { SIDE = 60 };
+    facet_material described;
+    facet_bsdf64 bsdf;
+    assert_int_equal(facet_material_parse(spec, &described, NULL), FACET_OK);
+    assert_int_equal(facet_bsdf64_prepare(&described, &bsdf, NULL), FACET_OK);
+    double sum = 0, sum2 = 0;
+    const int n = SIDE*SIDE*SIDE;
+    for (int i = 0; i < n; i++) {
+        const double u[3] = {(i%SIDE + .5)/SIDE, (i/SIDE%SIDE + .5)/SIDE, (i/SIDE/SIDE + .5)/SIDE};
+        const double w = facet_bsdf64_sample(&bsdf, wo, u).weight[0];
+        sum += w;
+        sum2 += w*w;
+    }
+    const double mean = sum/n, sigma = sqrt((sum2/n - mean*mean)/n);
+    if (!(fabs(albedo - mean) < 5*sigma + error))
+        fail_msg("%s: albedo %.9g, sampled %.9g +- %.2g", spec, albedo, mean, sigma);
+}
+
 static void albedo_of_known_materials(void **state)
 {
     (void)state;
@@ -321,6 +342,19 @@ static void albedo_of_known_materials(void **state)
     assert_non_null(average);
     assert_true(fabs(strtod(average + strlen("\naverage,"), NULL) - .596345760) < 1e-6);
     program_run_free(&run);
+
+    /* Rough glass: hardly rough, it is the same; rougher and with a tint, or as a thin wall, the mean of samples. */
+    run = RUN("albedo", "glass alpha=1e-4", "--cos", "1");
+    csv_row(run.out, 1, got, 8);
+    assert_true(fabs(got[1] - .04) < 1e-6 && fabs(got[4] - .96/2.25) < 1e-6);
+    program_run_free(&run);
+    static const char *const specs[] = {"glass alpha=.4 tint=.5", "glass alpha=.4 wall=thin", "glass alpha=.4 ior=.8"};
+    for (int k = 0; k < 3; k++) {
+        run = RUN("albedo", specs[k], "--cos", ".6");
+        csv_row(run.out, 1, got, 8);
+        expect_mean_weight(specs[k], (double[3]){.8, 0, .6}, got[1] + got[4], got[7]);
+        program_run_free(&run);
+    }
 }
 
 int main(void)

@@ -344,6 +344,55 @@ static void atan2_stays_below_the_stated_bound(void **state)
     assert_true(worst <= bound);
 }
 
+/* Gamma(x) Gamma(y)/Gamma(x + y), with libm's gamma function while it stays finite. */
+static wide ref_beta_of_gammas(wide x, wide y)
+{
+    return WIDE(tgamma)(x)/WIDE(tgamma)(x + y)*WIDE(tgamma)(y);
+}
+
+/* B(m, y) = (m - 1)!/(y (y + 1) ... (y + m - 1)) of an integer m */
+static wide ref_beta_of_integer(int m, wide y)
+{
+    wide product = 1/y;
+    for (int k = 1; k < m; k++) {
+        product *= k/(y + k);
+    }
+    return product;
+}
+
+/* The stated bound: an error of the exponent counts in full. */
+static double beta_share(real x, real y, wide want)
+{
+    double share = ulps(kbeta(x, y), want)/(10 + 3*fabs((double)WIDE(log)(want)));
+    if (share > 1 || kbeta(x, y) != kbeta(y, x)) {
+        print_message("kbeta(%a, %a) = %a, the other way %a: %.3f of the stated bound\n", (double)x, (double)y,
+                      (double)kbeta(x, y), (double)kbeta(y, x), share);
+        fail();
+    }
+    return share;
+}
+
+static void beta_stays_below_the_stated_bound(void **state)
+{
+    (void)state;
+    double worst[3] = {0};
+    for (int i = 0; i < SAMPLES; i++) {
+        real x = (real)between(1, BOUND(60, 300), uniform());
+        real y = (real)between(1, BOUND(60, 300), uniform());
+        worst[0] = fmax(worst[0], beta_share(x, y, ref_beta_of_gammas((wide)x, (wide)y)));
+        int m = 1 + (int)(40*uniform()*uniform());
+        real z = (real)between(1, exp(BOUND(80, 600)/m - 1), uniform()); /* z^-m is a normal number */
+        z = kmin(z, 1e18f);
+        worst[1] = fmax(worst[1], beta_share((real)m, z, ref_beta_of_integer(m, (wide)z)));
+        real near = (real)(1 + uniform()*pow(0.5, 20*uniform()));
+        real next = (real)(1 + uniform()*pow(0.5, 20*uniform()));
+        worst[2] = fmax(worst[2], beta_share(near, next, ref_beta_of_gammas((wide)near, (wide)next)));
+    }
+    if (SAMPLES > 100000) {
+        print_message("kbeta: %.3f, %.3f, %.3f of the stated bound\n", worst[0], worst[1], worst[2]);
+    }
+}
+
 /* ---- exact values
  * ------------------------------------------------------------------------------------------------- */
 
@@ -407,6 +456,8 @@ static void special_values_are_exact(void **state)
     ASSERT_SAME(kerfinv(1), kerfinv(2));
     ASSERT_SAME(kerfcinv(1), 0);
     ASSERT_SAME(kgamma_half_ratio(0), kgamma_half_ratio(0.5f));
+    ASSERT_SAME(kbeta(0, -3), kbeta(1, 1));
+    ASSERT_SAME(kbeta(1e18f, 1e18f), 0);
 }
 
 static void quadrants_are_exact(void **state)
@@ -528,9 +579,10 @@ static void any_finite_argument_gives_a_finite_result(void **state)
         }
         for (size_t j = 0; j < 2*n_edges; j++) {
             real y = j < n_edges ? EDGES[j] : -EDGES[j - n_edges];
-            if (!isfinite(kpow(x, y)) || !isfinite(katan2(y, x))) {
-                print_message("kpow(%a, %a) = %a, katan2 = %a\n", (double)x, (double)y, (double)kpow(x, y),
-                              (double)katan2(y, x));
+            const int is_finite_beta = (x > 1e18f) | (y > 1e18f) | isfinite(kbeta(x, y));
+            if (!isfinite(kpow(x, y)) || !isfinite(katan2(y, x)) || !is_finite_beta) {
+                print_message("kpow(%a, %a) = %a, katan2 = %a, kbeta = %a\n", (double)x, (double)y, (double)kpow(x, y),
+                              (double)katan2(y, x), (double)kbeta(x, y));
                 fail();
             }
         }
@@ -566,6 +618,7 @@ static const struct CMUnitTest KMATH_TESTS[] = {
     cmocka_unit_test(errors_stay_below_the_stated_bounds),
     cmocka_unit_test(pow_stays_below_the_stated_bound),
     cmocka_unit_test(atan2_stays_below_the_stated_bound),
+    cmocka_unit_test(beta_stays_below_the_stated_bound),
     cmocka_unit_test(special_values_are_exact),
     cmocka_unit_test(quadrants_are_exact),
     cmocka_unit_test(floor_and_round_agree_with_libm),

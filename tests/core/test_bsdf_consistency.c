@@ -13,6 +13,7 @@
 
 #include "tests/any_bsdf.h"
 #include "tests/draws.h"
+#include "tests/weight_check.h"
 
 static const char *const specs[] = {
     "lambert kd=.1,.5,.9",
@@ -88,43 +89,10 @@ static void each_sample(void (*check)(const any_bsdf *bsdf, const double wo[3], 
         }
 }
 
-/* pdf, and f/pdf of the channels, at a direction. */
-static void density_and_weights(const any_bsdf *bsdf, const double wi[3], const double wo[3], double values[4])
-{
-    any_eval(bsdf, wi, wo, values + 1);
-    values[0] = any_pdf(bsdf, wi, wo);
-    for (int k = 1; k < 4; k++) values[k] /= values[0];
-}
-
-/* eval/pdf at the returned wi.  A sample may hold the density of the normal that it drew, while its wi is rounded: a
- * component of wi is off by 3 eps at most (a product, a difference of numbers up to 2, a quotient), so that the
- * values may differ by what such steps along each axis change, besides 5 eps of their own arithmetic. */
 static void check_weight(const any_bsdf *bsdf, const double wo[3], const double u[3])
 {
-    const facet_sample64 s = any_sample(bsdf, wo, u);
-    if (s.pdf == 0) {
-        for (int k = 0; k < 3; k++) assert_true(s.weight[k] == 0);
-        return;
-    }
-    const double eps = any_epsilon(bsdf), drawn[4] = {s.pdf, s.weight[0], s.weight[1], s.weight[2]};
-    double at[4], tolerance[4];
-    density_and_weights(bsdf, s.wi, wo, at);
-    for (int k = 0; k < 4; k++) tolerance[k] = 5*eps*fabs(at[k]);
-    for (int axis = 0; axis < 3; axis++) {
-        double most[4] = {0};
-        for (int side = -1; side <= 1; side += 2) {
-            double near[4], wi[3] = {s.wi[0], s.wi[1], s.wi[2]};
-            wi[axis] += side*3*eps;
-            if (wi[2] <= 0) continue;
-            density_and_weights(bsdf, wi, wo, near);
-            for (int k = 0; k < 4; k++) most[k] = fmax(most[k], fabs(near[k] - at[k]));
-        }
-        for (int k = 0; k < 4; k++) tolerance[k] += most[k];
-    }
-    for (int k = 0; k < 4; k++)
-        if (!(fabs(drawn[k] - at[k]) <= tolerance[k]))
-            fail_msg("%s, wo (%a, %a, %a), wi (%a, %a, %a): %s %a, of the sample %a, tolerance %g", bsdf->spec, wo[0],
-                     wo[1], wo[2], s.wi[0], s.wi[1], s.wi[2], k ? "eval/pdf" : "pdf", at[k], drawn[k], tolerance[k]);
+    /* A component of wi is off by 3 eps at most: a product, a difference of numbers up to 2, a quotient. */
+    weight_check(bsdf, wo, u, 3);
 }
 
 static void weight_is_eval_over_pdf(void **state)
@@ -257,8 +225,14 @@ static void float_agrees_with_double(void **state)
 static void lobes_are_those_of_the_samples(void **state)
 {
     (void)state;
-    static const char *const glasses[] = {"glass", "glass wall=thin ior=2"};
-    for (int i = 0; i < N_SPECS + 2; i++) {
+    static const char *const glasses[] = {"glass",
+                                          "glass wall=thin ior=2",
+                                          "glass alpha=.3",
+                                          "glass ndf=phong exponent=20 wall=thin",
+                                          "glass alpha=.2 ndf=gtr",
+                                          "glass alpha=5e-5"};
+    enum { N_GLASSES = sizeof glasses/sizeof glasses[0] };
+    for (int i = 0; i < N_SPECS + N_GLASSES; i++) {
         const any_bsdf bsdf = any_bsdf_of(i < N_SPECS ? specs[i] : glasses[i - N_SPECS], 0);
         const int announced = facet_bsdf_lobes(&bsdf.single);
         assert_int_equal(announced, facet_bsdf64_lobes(&bsdf.twice));
@@ -285,7 +259,9 @@ static void materials_straight_from_values_are_the_same(void **state)
     const facet_bsdf fast = facet_bsdf_metallic_roughness((float[]){.75f, .5f, .25f}, .25f, .5f, .25f, .5f,
                                                           (float[]){1, .5f, .25f});
     const any_bsdf glass = any_bsdf_of("glass ior=2 tint=.5,.25,1 wall=thin", 0);
-    const facet_bsdf fast_glass = facet_bsdf_glass(2, (float[]){.5f, .25f, 1}, 1);
+    const facet_bsdf fast_glass = facet_bsdf_glass(2, 0, (float[]){.5f, .25f, 1}, 1);
+    const any_bsdf rough = any_bsdf_of("glass ior=2 tint=.5,.25,1 alpha=.25", 0);
+    const facet_bsdf fast_rough = facet_bsdf_glass(2, .25f, (float[]){.5f, .25f, 1}, 0);
     draws random = {1};
     for (int k = 0; k < N_DRAWS; k++) {
         double v[3];
@@ -296,6 +272,8 @@ static void materials_straight_from_values_are_the_same(void **state)
         const facet_sample c = facet_bsdf_sample(&glass.single, wo, u), d = facet_bsdf_sample(&fast_glass, wo, u);
         assert_memory_equal(&a, &b, sizeof a);
         assert_memory_equal(&c, &d, sizeof c);
+        const facet_sample e = facet_bsdf_sample(&rough.single, wo, u), f = facet_bsdf_sample(&fast_rough, wo, u);
+        assert_memory_equal(&e, &f, sizeof e);
     }
 }
 

@@ -1,5 +1,5 @@
 /* test_bsdf_extremes.c: no direction, number or parameter in range gives NaN, Inf or a negative value, and nothing is
- * reflected to or from below the horizon.
+ * reflected to or from below the horizon by what does not transmit.
  * SPDX-License-Identifier: MIT */
 #include <float.h>
 #include <math.h>
@@ -61,6 +61,18 @@ static const char *const specs[] = {
     "glass",
     "glass ior=.1 tint=0",
     "glass ior=10 wall=thin",
+    "glass alpha=1e-4",
+    "glass alpha=4 ior=.1 tint=0",
+    "glass alpha_x=4 alpha_y=1e-4 ior=10 g2=separable",
+    "glass alpha=1 ior=1.000002",
+    "glass alpha=.01 ior=1.001 sampling=ndf",
+    "glass alpha=1e-4 ndf=beckmann ior=1.02",
+    "glass alpha=.5 ndf=beckmann masking=published sampling=ndf",
+    "glass exponent=1e6 ndf=phong",
+    "glass exponent=0 ndf=phong ior=.5",
+    "glass alpha=1 wall=thin ior=.1",
+    "glass alpha_x=1e-4 alpha_y=1 ndf=gtr gamma=20",
+    "glass alpha=.1 ndf=gtr gamma=1e-3 wall=thin masking=published",
 };
 enum { N_SPECS = sizeof specs/sizeof specs[0] };
 
@@ -82,6 +94,11 @@ static int is_fine(double x)
     return isfinite(x) && x >= 0;
 }
 
+static int transmits(const any_bsdf *bsdf)
+{
+    return facet_bsdf_lobes(&bsdf->single) & FACET_TRANSMISSION;
+}
+
 /* The height as the build sees it. */
 static double height(const any_bsdf *bsdf, const double v[3])
 {
@@ -93,7 +110,8 @@ static void check_pair(const any_bsdf *bsdf, const double wi[3], const double wo
     double f[3];
     any_eval(bsdf, wi, wo, f);
     const double pdf = any_pdf(bsdf, wi, wo);
-    const int is_below = !(height(bsdf, wi) > 0 && height(bsdf, wo) > 0);
+    const double wi_z = height(bsdf, wi), wo_z = height(bsdf, wo);
+    const int is_below = transmits(bsdf) ? wi_z == 0 || wo_z == 0 : !(wi_z > 0 && wo_z > 0);
     for (int k = 0; k < 3; k++)
         if (!is_fine(f[k]) || (is_below && f[k] != 0))
             fail_msg("%s, %s: wi (%a, %a, %a), wo (%a, %a, %a): eval %a", bsdf->spec,
@@ -157,8 +175,9 @@ static void check_draw(const any_bsdf *bsdf, const double wo[3], const double u[
     for (int k = 0; k < 3; k++)
         is_good = is_good && is_fine(s.weight[k]) && isfinite(s.wi[k]) && fabs(s.wi[k]) <= 1.001;
     if (s.pdf == 0) is_good = is_good && s.weight[0] == 0 && s.weight[1] == 0 && s.weight[2] == 0;
-    if (!is_delta && !(height(bsdf, wo) > 0)) is_good = is_good && s.pdf == 0;
-    if (!is_delta && s.pdf > 0) is_good = is_good && s.wi[2] > 0;
+    const double wo_z = height(bsdf, wo);
+    if (!is_delta && (transmits(bsdf) ? wo_z == 0 : !(wo_z > 0))) is_good = is_good && s.pdf == 0;
+    if (!is_delta && s.pdf > 0) is_good = is_good && ((s.wi[2] > 0) == (wo_z > 0)) == !!(s.lobe & FACET_REFLECTION);
     if (!is_good)
         fail_msg("%s, %s: wo (%a, %a, %a), u (%a, %a, %a): wi (%a, %a, %a), pdf %a, weight %a", bsdf->spec,
                  bsdf->is_double ? "double" : "float", wo[0], wo[1], wo[2], u[0], u[1], u[2], s.wi[0], s.wi[1], s.wi[2],

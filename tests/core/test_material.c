@@ -113,6 +113,7 @@ static const refusal refusals[] = {
     {"ggx alpha=.3 alpha_x=.3", FACET_BAD_VALUE, "alpha_x", "'alpha'"},
     {"ggx alpha_y=.3 alpha=.3", FACET_BAD_VALUE, "alpha", "'alpha_y'"},
     {"phong exponent=3 alpha_x=.3", FACET_BAD_VALUE, "alpha_x", "'exponent'"},
+    {"glass exponent=3 alpha=.3", FACET_BAD_VALUE, "alpha", "'exponent'"},
     {"ggx ks=.5 ior=1.5", FACET_BAD_VALUE, "ior", "'ks'"},
     {"beckmann ior=1.5 ks=.5", FACET_BAD_VALUE, "ks", "'ior'"},
     {"ggx metal=Pb", FACET_UNKNOWN_NAME, "metal", "Ag|Al|Au|Co|Cr|Cu|Fe|Ni|Ti"},

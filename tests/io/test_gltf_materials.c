@@ -154,6 +154,12 @@ static void transmission_is_thin_without_thickness(void **state)
     assert_non_null(strstr(gltf_warnings, "materials[0]: KHR_materials_volume's attenuation is not supported"));
     assert_non_null(strstr(gltf_warnings, "transmissionTexture is not supported"));
     scene_destroy(s);
+    s = load_material("\"pbrMetallicRoughness\":{\"roughnessFactor\":0.5},\"extensions\":"
+                      "{\"KHR_materials_transmission\":{\"transmissionFactor\":1}}",
+                      "");
+    EXPECT_FLOATS(&s->materials[0].roughness, 1, 0.5f);
+    assert_string_equal(gltf_warnings, "");
+    scene_destroy(s);
 }
 
 static void unlit_and_bsdf_materials_are_told_apart(void **state)

@@ -256,7 +256,7 @@ static void instances_under_a_sunny_sky(void **state)
 /* ---- The furnace --------------------------------------------------------------------------------------------- */
 
 /* 6 x 6 spheres of radius .45, 60 pixels apart, in a sky of 1: columns by roughness 0 to 1, rows by material. */
-enum { FURNACE = 384, SPACING = 60, HALF = 18, METAL = 0, DIELECTRIC = 1, LAMBERT = 3 };
+enum { FURNACE = 384, SPACING = 60, HALF = 18, METAL = 0, DIELECTRIC = 1, GLASS = 2, LAMBERT = 3 };
 static const char *const rows[6] = {"metal", "dielectric", "glass", "lambert", "clearcoat", "sheen"};
 
 /* The green mean of a square inside a sphere's outline. */
@@ -270,8 +270,21 @@ static double cell_mean(const float *pixels, size_t n_channels, size_t row, size
     return sum/(4*HALF*HALF);
 }
 
-/* The spheres light each other.  Rows that the two renderers read differently (single-scattering rough glass, clear
- * coat and sheen) are replaced by lamps as bright as the reference shows them; what the others show is compared. */
+/* Rough glass as the peer masks it. */
+static void separable_glass(material *m)
+{
+    char spec[64];
+    snprintf(spec, sizeof spec, "glass ior=%.9g alpha=%.9g g2=separable", (double)m->ior,
+             (double)m->roughness*(double)m->roughness);
+    facet_material described;
+    assert_int_equal(facet_material_parse(spec, &described, NULL), FACET_OK);
+    assert_int_equal(facet_bsdf_prepare(&described, &m->bsdf, NULL), FACET_OK);
+    m->kind = SURFACE_BSDF;
+}
+
+/* The spheres light each other.  Rows that the two renderers read differently (clear coat and sheen) are replaced by
+ * lamps as bright as the reference shows them; what the others show is compared.  Of glass the two smoothest: the
+ * peer takes Fresnel's term at the normal of the surface, not of the facet, which the rougher ones show. */
 static void white_furnace(void **state)
 {
     (void)state;
@@ -291,6 +304,10 @@ static void white_furnace(void **state)
         if (sscanf(s->materials[i].name, "%31[a-z]_rough%lf", name, &roughness) != 2) continue;
         for (size_t row = 0; row < 6; row++) {
             if (strcmp(name, rows[row]) != 0 || row == METAL || row == DIELECTRIC || row == LAMBERT) continue;
+            if (row == GLASS) {
+                separable_glass(&s->materials[i]);
+                continue;
+            }
             const float L = (float)cell_mean(reference.pixels, reference.n_channels, row, (size_t)(5*roughness + .5));
             facet_material black;
             assert_int_equal(facet_material_parse("lambert kd=0", &black, NULL), FACET_OK);
@@ -310,15 +327,15 @@ static void white_furnace(void **state)
     facet_error why = {0};
     if (render(s, &r, &result, &why)) fail_msg("%s: %s", why.place, why.text);
     assert_int_equal(result.n_bad, 0);
-    static const size_t compared[3] = {METAL, DIELECTRIC, LAMBERT};
+    static const size_t compared[4] = {METAL, DIELECTRIC, LAMBERT, GLASS};
     double worst = 0;
-    for (size_t i = 0; i < 3; i++) {
+    for (size_t i = 0; i < 4; i++) {
         print_message("  %-12s", rows[compared[i]]);
         for (size_t column = 0; column < 6; column++) {
             const double q = cell_mean(result.picture.pixels, 3, compared[i], column)/
                              cell_mean(reference.pixels, reference.n_channels, compared[i], column);
             print_message(" %.4f", q);
-            worst = fmax(worst, fabs(q - 1));
+            if (compared[i] != GLASS || column < 2) worst = fmax(worst, fabs(q - 1));
         }
         print_message("\n");
     }
