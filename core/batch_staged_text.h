@@ -74,7 +74,7 @@ static void replace_tails(const microfacet_params *p, size_t n, const int *is_ta
         t.wo.z[k] = wo.z[i];
         t.u.x[k] = u.x[i];
         t.u.y[k] = u.y[i];
-        t.u.z[k] = microfacet_rest_of(*p, gather(wo, (size_t)i), u.z[i]);
+        t.u.z[k] = microfacet_mirror_number(*p, gather(wo, (size_t)i), u.z[i]);
     }
     draw_tails(&p->d.gtr, padded, &t);
     for (size_t k = 0; k < count; k++) {
@@ -98,7 +98,7 @@ KERNEL void sample_block(microfacet_params p, size_t n, facet_dirs wo, facet_dir
     _Pragma("omp simd") for (size_t i = 0; i < n; i++)
     {
         const gtr_view v = gtr_view_of(gather(wo, i), p.d.gtr);
-        const real rest = microfacet_rest_of(p, gather(wo, i), u.z[i]);
+        const real rest = microfacet_mirror_number(p, gather(wo, i), u.z[i]);
         const real3 normal = gtr_sample_body(v, gtr_rest_of(v, u.x[i]), u.y[i], rest, p.d.gtr);
         m.x[i] = normal.x;
         m.y[i] = normal.y;

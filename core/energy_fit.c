@@ -6,7 +6,8 @@
  * azimuth it ends at a radius R that is known, so that the integrand is smooth inside:
  *   - along the radius, S(r) = (1 - x^2)^4 of the facets are steeper: Gauss's rule in x from 0 to that of R.  x is like
  *     r near 0, and the tail, weighted by r, stays smooth at x = 1;
- *   - the azimuth from a direction across wo is like y^3, because near y = 0 the integrand changes within c/alpha; where
+ *   - the azimuth from a direction across wo is like y^3, because near y = 0 the integrand changes within c/alpha;
+ * where
  *     slopes are stretched, also from the axis of the lesser roughness, around which those of one azimuth are many.
  * SPDX-License-Identifier: MIT */
 #define FACET_REAL_IS_DOUBLE 1
@@ -137,8 +138,8 @@ static double along_azimuth(const surface *p, real3 wo, double G1_o, double ex, 
     return end*sum;
 }
 
-/* The integral over the azimuths from `start` to start + length [rad], of either sign, with nodes that crowd cubically at the start, or
- * at both ends. */
+/* The integral over the azimuths from `start` to start + length [rad], of either sign, with nodes that crowd
+ * cubically at the start, or at both ends. */
 static double over_azimuths(const surface *p, real3 wo, double G1_o, double start, double length)
 {
     double sum = 0;
@@ -192,7 +193,7 @@ typedef struct matrix {
 /* From values at the nodes cos(pi (i + 1/2)/n) to coefficients of Chebyshev's polynomials. */
 static matrix to_chebyshev(int n)
 {
-    matrix m;
+    matrix m = {.at = {{0}}};
     for (int k = 0; k < n; k++)
         for (int i = 0; i < n; i++) m.at[k][i] = (k ? 2.0 : 1.0)/n*kcossin_turn(0.5*k*(i + 0.5)/n).x;
     return m;

