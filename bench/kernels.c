@@ -29,6 +29,7 @@ static const char *const specs[] = {
     "ggx alpha=.2",
     "ggx alpha_x=.1 alpha_y=.4",
     "ggx alpha=.2 sampling=ndf",
+    "ggx alpha=.2 sampling=bounded",
     "ggx alpha=.2 ior=1.5 kd=.5",
     "gtr alpha=.1 gamma=1.5",
     "gtr alpha=.3 gamma=.7",

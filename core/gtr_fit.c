@@ -126,7 +126,7 @@ static void mix_ggx(double alpha, double gamma, double decay, gtr_mixture *m)
     const double reach = kmax(SHORTEST_REACH, decay/kmax(gamma - 1.5, REAL_MIN));
     const double high = kmin(1, alpha*kexp(0.5*kmin(reach, 40)));
     const double share = LARGEST_SHARE*kpow(2/kmax(gamma, 2), SHARE_POWER);
-    complex_array node, step;
+    complex_array node = {{0}, {0}}, step = {{0}, {0}};
     const int n = ring(kmin(alpha, LARGEST_LOW*high), high, share, decay, &node, &step);
     const double alpha2 = alpha*alpha, k0 = (1 - alpha)*(1 + alpha), excess = gamma - 1;
     const double power = kabs(excess) > LEAST_EXCESS ? excess : LEAST_EXCESS;

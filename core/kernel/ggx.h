@@ -5,6 +5,7 @@
  * [bonn]    Zingsheim, BRDF Models, sections 4 and 5: anisotropic D and the dot-product forms.
  * [heitz14] Heitz, Understanding the masking-shadowing function, JCGT 2014, section 5.3 (anisotropy).
  * [dupuy23] Dupuy and Benyoub, Sampling visible GGX normals with spherical caps, CGF 2023.
+ * [eto23]   Eto and Tokuyoshi, Bounded VNDF sampling for Smith-GGX reflections, SIGGRAPH Asia 2023.
  * SPDX-License-Identifier: MIT */
 #pragma once
 
@@ -49,16 +50,42 @@ KERNEL real3 ggx_sample_ndf(real ux, real uy, real alpha_x, real alpha_y)
     return make3(alpha_x*r*azimuth.x, alpha_y*r*azimuth.y, 1);
 }
 
-/* A normal with density D(wm) G1(wo) (wo.wm)+/cos_o: in the stretched space, where the surface is a
- * hemisphere, the reflected direction is uniform on a spherical cap.  [dupuy23, listing 3].
- * Departure: the sphere has the radius of the stretched wo, which spares a normalisation. */
-KERNEL real3 ggx_sample_vndf(real3 wo, real ux, real uy, real alpha_x, real alpha_y)
+/* A normal that mirrors wo to a direction uniform on the cap above -lowest of the stretched sphere, lowest <= wo.z.
+ * [dupuy23, listing 3].  Departure: the sphere has the radius of the stretched wo, which spares a normalisation. */
+KERNEL real3 ggx_sample_cap(real3 wo, real lowest, real ux, real uy, real alpha_x, real alpha_y)
 {
     real r        = ggx_root(wo, alpha_x, alpha_y);
     real2 azimuth = kcossin_turn(ux);
-    real z        = (1 - uy)*(r + wo.z) - wo.z;
+    real z        = (1 - uy)*(r + lowest) - lowest;
     real sin      = ksqrt(kmax((r - z)*(r + z), 0));
     real hx       = sin*azimuth.x + alpha_x*wo.x;
     real hy       = sin*azimuth.y + alpha_y*wo.y;
     return make3(alpha_x*hx, alpha_y*hy, kmax(z + wo.z, COS_SMALLEST));
+}
+
+/* A normal with density D(wm) G1(wo) (wo.wm)+/cos_o: in the stretched space, where the surface is a hemisphere, the
+ * whole cap. */
+KERNEL real3 ggx_sample_vndf(real3 wo, real ux, real uy, real alpha_x, real alpha_y)
+{
+    return ggx_sample_cap(wo, wo.z, ux, uy, alpha_x, alpha_y);
+}
+
+/* Where the cap may end without losing a direction above the horizon: k wo.z, k <= 1.  [eto23, listing 1]. */
+KERNEL real ggx_lowest(real3 wo, real alpha_x, real alpha_y)
+{
+    real a  = kmin(kmin(alpha_x, alpha_y), 1);
+    real s  = 1 + ksqrt(wo.x*wo.x + wo.y*wo.y);
+    real s2 = s*s;
+    return wo.z*((1 - a)*(1 + a)*s2/(s2 + ksquare(a*wo.z)));
+}
+
+/* The visible normals but for many that mirror wo below the horizon: density D(wm) (wo.wm)+/bounded sigma. */
+KERNEL real3 ggx_sample_bounded(real3 wo, real ux, real uy, real alpha_x, real alpha_y)
+{
+    return ggx_sample_cap(wo, ggx_lowest(wo, alpha_x, alpha_y), ux, uy, alpha_x, alpha_y);
+}
+
+KERNEL real ggx_bounded_sigma(real3 wo, real alpha_x, real alpha_y)
+{
+    return 0.5f*(ggx_lowest(wo, alpha_x, alpha_y) + ggx_root(wo, alpha_x, alpha_y));
 }

@@ -21,10 +21,11 @@
 #include "fresnel.h"
 
 /* The order of the choices in the parameter tables. */
-#define G2_CORRELATED 0
-#define G2_SEPARABLE  1
-#define SAMPLING_VNDF 0
-#define SAMPLING_NDF  1
+#define G2_CORRELATED    0
+#define G2_SEPARABLE     1
+#define SAMPLING_VNDF    0
+#define SAMPLING_NDF     1
+#define SAMPLING_BOUNDED 2
 
 typedef struct microfacet_params {
     distribution d;
@@ -89,6 +90,12 @@ KERNEL real specular_visible_pdf(distribution d, specular_term s, real3 wo)
                                           : s.drawn_D*(s.inverse*s.rest);
 }
 
+/* The same for ggx's bounded ones. */
+KERNEL real specular_bounded_pdf(distribution d, specular_term s, real3 wo)
+{
+    return 0.25f*s.drawn_D/ggx_bounded_sigma(wo, d.alpha_x, d.alpha_y);
+}
+
 /* The same for all normals, D cos_m/(4 (wo.wm)).  [cs500, P_r]. */
 KERNEL real specular_ndf_pdf(specular_term s)
 {
@@ -105,6 +112,12 @@ KERNEL real3 microfacet_eval(microfacet_params p, real3 wi, real3 wo)
     real3 both      = madd3(shine, INV_PI*wi.z, p.kd);
     real3 f         = select3(p.has_diffuse, both, shine);
     return select3(is_above(wi, wo), f, splat3(0));
+}
+
+/* Whether samples are ggx's bounded ones. */
+KERNEL int microfacet_is_bounded(microfacet_params p)
+{
+    return (p.d.kind == NDF_GGX) & (p.sampling == SAMPLING_BOUNDED);
 }
 
 /* The part of specular samples that the lobe of several bounces gets. */
@@ -130,7 +143,9 @@ KERNEL real microfacet_pdf(microfacet_params p, real3 wi, real3 wo)
     specular_term s = specular_at(p.d, p.g2, wi, wo);
     real all        = specular_ndf_pdf(s);
     real visible    = specular_visible_pdf(p.d, s, wo);
-    real single     = p.sampling == SAMPLING_NDF ? all : visible;
+    real bounded    = specular_bounded_pdf(p.d, s, wo);
+    real seen       = microfacet_is_bounded(p) ? bounded : visible;
+    real single     = p.sampling == SAMPLING_NDF ? all : seen;
     real p_multi    = microfacet_p_multi(p, wo);
     real P_r        = p.ms.kind == ENERGY_SINGLE ? single : mix(single, energy_pdf(p.ms, wi), p_multi);
     real both       = p.p_diffuse*(INV_PI*wi.z) + (1 - p.p_diffuse)*P_r;
@@ -138,16 +153,18 @@ KERNEL real microfacet_pdf(microfacet_params p, real3 wi, real3 wo)
     return keep_if(is_above(wi, wo), pdf);
 }
 
-/* A mirror direction about a visible normal, exact masking and no Lambertian term: the weight is F G2/G1(wo), without
- * D, which cancels.  The density is that of the normal drawn, exact where wi's rounding would blur it. */
+/* A mirror direction about a visible normal, exact masking and no Lambertian term: the weight is F G2/G1(wo), with the
+ * bounded sigma for G1's, without D, which cancels.  The density is that of the normal drawn, exact where wi's
+ * rounding would blur it. */
 KERNEL bsdf_sample microfacet_sample_visible(microfacet_params p, real3 wo, real3 m)
 {
     real towards    = dot3(wo, m);
     real ratio      = towards/dot3(m, m);
     real3 wi        = sub3(scale3(2*ratio, m), wo);
     specular_term s = specular_about(p.d, p.g2, wi, wo, m, ksqrt(kmax(ratio*towards, 0)));
-    real3 weight    = scale3(s.sigma_o*wi.z/s.rest, fresnel_reflectance(p.F, s.cos_d));
-    real pdf        = 0.25f*s.D/s.sigma_o;
+    real sigma      = microfacet_is_bounded(p) ? ggx_bounded_sigma(wo, p.d.alpha_x, p.d.alpha_y) : s.sigma_o;
+    real3 weight    = scale3(sigma*wi.z/s.rest, fresnel_reflectance(p.F, s.cos_d));
+    real pdf        = 0.25f*s.D/sigma;
     int is_valid    = is_above(wi, wo) & (towards > 0) & (pdf > REAL_MIN);
     return complete_sample(wi, weight, pdf, is_valid, LOBE_REFLECTION | LOBE_GLOSSY);
 }
@@ -175,8 +192,10 @@ KERNEL bsdf_sample microfacet_sample_about(microfacet_params p, real3 wo, real3 
 
 KERNEL bsdf_sample microfacet_sample(microfacet_params p, real3 wo, real3 u)
 {
-    real3 m = select3(p.sampling == SAMPLING_NDF, distribution_sample_ndf(p.d, u.x, u.y),
-                      distribution_sample_vndf(p.d, wo, u.x, u.y, microfacet_mirror_number(p, wo, u.z)));
+    real3 visible = distribution_sample_vndf(p.d, wo, u.x, u.y, microfacet_mirror_number(p, wo, u.z));
+    real3 bounded = ggx_sample_bounded(wo, u.x, u.y, p.d.alpha_x, p.d.alpha_y);
+    real3 seen    = select3(microfacet_is_bounded(p), bounded, visible);
+    real3 m       = select3(p.sampling == SAMPLING_NDF, distribution_sample_ndf(p.d, u.x, u.y), seen);
     return microfacet_sample_about(p, wo, u, m);
 }
 
@@ -199,13 +218,14 @@ KERNEL real3 microfacet_terms(microfacet_params p, real3 m)
 #define MICROFACET_USUAL     0 /* as PURE, with Schlick's Fresnel and correlated masking */
 #define MICROFACET_METAL     1 /* as PURE, of a conductor, whose Fresnel term costs more than all the rest */
 #define MICROFACET_MIXED     2 /* as PURE, over a Lambertian term; no conductor */
-#define MICROFACET_PURE      3 /* one lobe: visible normals, exact masking (GGX: no conductor) */
+#define MICROFACET_PURE      3 /* one lobe: visible normals, exact masking (GGX: no conductor, not bounded) */
 #define MICROFACET_NDF       4 /* all normals, exact masking; no conductor */
 #define MICROFACET_PUBLISHED 5 /* all normals, the masking that the paper prints; no conductor */
 #define MICROFACET_RARE      6 /* everything else, Disney's anisotropic gtr too; chooses as it runs */
 #define MICROFACET_MULTI     7 /* GGX and GTR as USUAL, isotropic, with the lobe of several bounces */
 #define MICROFACET_ENERGY    8 /* all else with that lobe, or scaled; chooses as it runs */
-#define MICROFACET_GROUPS    9
+#define MICROFACET_BOUNDED   9 /* GGX as PURE, with bounded normals */
+#define MICROFACET_GROUPS    10
 
 KERNEL int microfacet_variant(microfacet_params p)
 {
@@ -222,20 +242,22 @@ KERNEL int microfacet_variant(microfacet_params p)
     int is_multi = is_usual & (p.ms.kind == ENERGY_MULTI) & p.ms.is_isotropic & !p.has_diffuse & !is_published &
                    (p.sampling == SAMPLING_VNDF) & !distribution_is_disney(p.d);
     int bounces = is_multi ? MICROFACET_MULTI : MICROFACET_ENERGY;
-    return MICROFACET_GROUPS*p.d.kind + (p.ms.kind == ENERGY_SINGLE ? single : bounces);
+    int seen    = (p.is_one & microfacet_is_bounded(p)) ? MICROFACET_BOUNDED : single;
+    return MICROFACET_GROUPS*p.d.kind + (p.ms.kind == ENERGY_SINGLE ? seen : bounces);
 }
 
 /* p with the fields that are the same throughout a variant set to constants. */
 KERNEL microfacet_params microfacet_fix(microfacet_params p, int variant)
 {
-    int group           = variant%MICROFACET_GROUPS;
-    int kind            = variant/MICROFACET_GROUPS;
-    int is_multi        = group == MICROFACET_MULTI;
-    int is_usual        = (group == MICROFACET_USUAL) | is_multi;
-    int is_metal        = group == MICROFACET_METAL;
-    int is_one          = (is_usual & !is_multi) | is_metal | (group == MICROFACET_PURE);
-    int is_energy       = group == MICROFACET_ENERGY;
-    int is_any          = (group == MICROFACET_RARE) | is_energy | ((group == MICROFACET_PURE) & (kind != NDF_GGX));
+    int group      = variant%MICROFACET_GROUPS;
+    int kind       = variant/MICROFACET_GROUPS;
+    int is_multi   = group == MICROFACET_MULTI;
+    int is_usual   = (group == MICROFACET_USUAL) | is_multi;
+    int is_metal   = group == MICROFACET_METAL;
+    int is_bounded = group == MICROFACET_BOUNDED;
+    int is_one     = (is_usual & !is_multi) | is_metal | is_bounded | (group == MICROFACET_PURE);
+    int is_energy  = group == MICROFACET_ENERGY;
+    int is_any = (group == MICROFACET_RARE) | is_energy | is_bounded | ((group == MICROFACET_PURE) & (kind != NDF_GGX));
     int is_rare         = (group == MICROFACET_RARE) | is_energy;
     int is_published    = group == MICROFACET_PUBLISHED;
     int is_all          = is_published | (group == MICROFACET_NDF);
@@ -245,7 +267,8 @@ KERNEL microfacet_params microfacet_fix(microfacet_params p, int variant)
     q.d.kind            = kind;
     q.d.gtr.anisotropy  = is_rare ? p.d.gtr.anisotropy : GTR_STRETCHED;
     q.d.masking         = is_rare ? p.d.masking : (is_published ? MASKING_PUBLISHED : MASKING_EXACT);
-    q.sampling          = is_rare ? p.sampling : (is_all ? SAMPLING_NDF : SAMPLING_VNDF);
+    int drawn           = is_all ? SAMPLING_NDF : (is_bounded ? SAMPLING_BOUNDED : SAMPLING_VNDF);
+    q.sampling          = is_rare ? p.sampling : drawn;
     q.F.kind            = is_metal ? FRESNEL_CONDUCTOR : other;
     q.g2                = is_usual ? G2_CORRELATED : p.g2;
     q.is_one            = is_one;
@@ -266,14 +289,21 @@ KERNEL microfacet_params microfacet_fix(microfacet_params p, int variant)
     CASE(name, 6)                                                                                                      \
     CASE(name, 7)                                                                                                      \
     CASE(name, 8)                                                                                                      \
-    CASE(name, 12)                                                                                                     \
+    CASE(name, 9)                                                                                                      \
     CASE(name, 13)                                                                                                     \
     CASE(name, 14)                                                                                                     \
     CASE(name, 15)                                                                                                     \
-    CASE(name, 17)                                                                                                     \
-    CASE(name, 21)                                                                                                     \
-    CASE(name, 22)                                                                                                     \
+    CASE(name, 16)                                                                                                     \
+    CASE(name, 18)                                                                                                     \
     CASE(name, 23)                                                                                                     \
     CASE(name, 24)                                                                                                     \
+    CASE(name, 25)                                                                                                     \
     CASE(name, 26)                                                                                                     \
-    CASE(name, 27) CASE(name, 30) CASE(name, 31) CASE(name, 32) CASE(name, 33) CASE(name, 34) CASE(name, 35)
+    CASE(name, 28)                                                                                                     \
+    CASE(name, 30)                                                                                                     \
+    CASE(name, 33)                                                                                                     \
+    CASE(name, 34)                                                                                                     \
+    CASE(name, 35)                                                                                                     \
+    CASE(name, 36)                                                                                                     \
+    CASE(name, 37)                                                                                                     \
+    CASE(name, 38)

@@ -78,7 +78,6 @@ KERNEL student_point student_at(student s, real q)
     real v   = 1/(P*P);
     real x   = 1/(1 + q2);
     real x4  = x*x*x*x;
-    real x16 = x4*x4*x4*x4;
     student_point a;
     a.x      = x;
     a.root_x = ksqrt(x);
@@ -87,7 +86,7 @@ KERNEL student_point student_at(student s, real q)
     a.w      = P*L;
     a.root_w = ksqrt(a.w);
     /* x^(SHIFT - 1/4) */
-    a.e      = a.x_p*((STUDENT_SHIFT == 20 ? x4*x16 : x*x4)/ksqrt(a.root_x));
+    a.e      = a.x_p*((STUDENT_SHIFT == 20 ? x4*(x4*x4*x4*x4) : x*x4)/ksqrt(a.root_x));
     a.tail   = 0;
     a.lambda = 0;
 #if FACET_REAL_IS_DOUBLE

@@ -7,7 +7,7 @@
 #ifdef FACET_PARAMETERS
 static const facet_parameter ggx_parameters[] = {
     ALPHA_PARAMETERS,
-    MICROFACET_PARAMETERS("vndf|ndf", 1),
+    MICROFACET_PARAMETERS("vndf|ndf|bounded", SAMPLING_BOUNDED),
 };
 #endif
 

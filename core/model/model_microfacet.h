@@ -92,7 +92,7 @@ static inline microfacet_params microfacet_prepare(const facet_material *m, int 
     const real kd = length3(p.kd);
     const real ks = length3(fresnel_reflectance(p.F, 1));
     p.has_diffuse = kd > 0;
-    p.is_one = p.sampling == SAMPLING_VNDF && p.d.masking == MASKING_EXACT && !p.has_diffuse;
+    p.is_one = p.sampling != SAMPLING_NDF && p.d.masking == MASKING_EXACT && !p.has_diffuse;
     p.p_diffuse = kd > 0 ? kmin(kd/(kd + ks), 0.875f) : (real)0;
     return p;
 }

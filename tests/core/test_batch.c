@@ -31,6 +31,7 @@ static const recorded materials[] = {
     {"beckmann alpha_x=.6 alpha_y=.1 kd=.3 sampling=ndf", UINT64_C(0x77f27814501be272)},
     {"ggx alpha=.2", UINT64_C(0x3749994de57bd218)},
     {"ggx alpha_x=.1 alpha_y=.4 ior=1.5 kd=.5", UINT64_C(0x69c8f9fe2dad58bb)},
+    {"ggx alpha_x=.7 alpha_y=.3 sampling=bounded", UINT64_C(0x9d1dc92991fdc144)},
     {"ggx alpha=.2 metal=Au kd=.1", UINT64_C(0xeb0a7e27a6cf10b2)},
     {"beckmann alpha=.3 eta=.2,.9,1.1 k=3.9,2.4,2.2 sampling=ndf", UINT64_C(0x76fecd60d42f40fa)},
     {"ggx alpha=.4 ks=.9,.6,.3 f82=.7,.8,1", UINT64_C(0x0847ad4f84081620)},

@@ -30,6 +30,8 @@ static const char *const specs[] = {
     "ggx alpha=1",
     "ggx alpha=.5 g2=separable masking=published",
     "ggx alpha_x=.4 alpha_y=.1 ior=1.5",
+    "ggx alpha_x=.9 alpha_y=.3 sampling=bounded",
+    "ggx alpha=.5 sampling=bounded kd=.5 energy=multi",
     "ggx alpha=.3 sampling=ndf kd=.5 ior=.7",
     "ggx alpha_x=.1 alpha_y=.3 metal=Au",
     "beckmann alpha=.3 eta=.3,1,2 k=2,.1,.5 kd=.2 sampling=ndf g2=separable",

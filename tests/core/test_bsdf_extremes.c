@@ -29,6 +29,8 @@ static const char *const specs[] = {
     "ggx alpha=4",
     "ggx alpha_x=4 alpha_y=1e-4 g2=separable",
     "ggx alpha=.3 sampling=ndf ior=10 kd=1",
+    "ggx alpha=1e-4 sampling=bounded",
+    "ggx alpha_x=4 alpha_y=.1 sampling=bounded",
     "ggx alpha=1e-4 sampling=ndf ks=0",
     "ggx alpha=1e-4 metal=Au",
     "ggx alpha=4 eta=.01 k=0 kd=1",

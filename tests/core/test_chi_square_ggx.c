@@ -17,6 +17,9 @@ static const sampler_case cases[] = {
     {"ggx alpha=.3", .05, 2},
     {"ggx alpha=1", .3, 3},
     {"ggx alpha=4", .8, 2},
+    {"ggx alpha=.5 sampling=bounded", .5, 1},
+    {"ggx alpha=1 sampling=bounded", .9, 1},
+    {"ggx alpha_x=.9 alpha_y=.4 sampling=bounded kd=.2", .3, 4},
     {"ggx alpha_x=.1 alpha_y=.6", .7, .9},
     {"ggx alpha_x=.8 alpha_y=.05", .15, 5},
 };
