@@ -65,7 +65,8 @@ static inline real3 gather(facet_dirs d, size_t i)
             to.weight_b[i] = drawn.weight.z;                                                                           \
         }                                                                                                              \
     }                                                                                                                  \
-    static void name##_eval_loop(const prepared *p, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f)               \
+    EACH_VARIANT_##name(VARIANT_LOOPS, name) static void name##_eval_loop(const prepared *p, size_t n, facet_dirs wi,  \
+                                                                          facet_dirs wo, facet_rgb f)                  \
     {                                                                                                                  \
         switch (p->variant) {                                                                                          \
             EACH_VARIANT_##name(EVAL_CASE, name)                                                                       \
@@ -90,23 +91,45 @@ static inline real3 gather(facet_dirs d, size_t i)
             EACH_VARIANT_##name(SAMPLE_CASE, name)                                                                     \
         }                                                                                                              \
     }
-#define EVAL_CASE(name, v)                                                                                             \
-    case v:                                                                                                            \
+/* The loops of one variant.  A function each: gcc gives up on the records of parameters where many share one.  gtr, one
+ * of the distributions of the kernel microfacet, has a sampling loop of its own. */
+#define VARIANT_LOOPS(name, v)                                                                                         \
+    static __attribute__((noinline)) void name##_eval_##v(const prepared *p, size_t n, facet_dirs wi, facet_dirs wo,   \
+                                                          facet_rgb f)                                                 \
+    {                                                                                                                  \
         name##_eval_each(name##_fix(p->of.name, v), n, wi, wo, f);                                                     \
-        break;
-#define PDF_CASE(name, v)                                                                                              \
-    case v:                                                                                                            \
+    }                                                                                                                  \
+    static __attribute__((noinline)) void name##_pdf_##v(const prepared *p, size_t n, facet_dirs wi, facet_dirs wo,    \
+                                                         float *pdf)                                                   \
+    {                                                                                                                  \
         name##_pdf_each(name##_fix(p->of.name, v), n, wi, wo, pdf);                                                    \
-        break;
-#define EVAL_PDF_CASE(name, v)                                                                                         \
-    case v: name##_eval_pdf_each(name##_fix(p->of.name, v), n, wi, wo, f, pdf); break;
-/* gtr, one of the distributions of the kernel microfacet, has a loop of its own. */
-#define SAMPLE_CASE(name, v)                                                                                           \
-    case v:                                                                                                            \
+    }                                                                                                                  \
+    static __attribute__((noinline)) void name##_eval_pdf_##v(const prepared *p, size_t n, facet_dirs wi,              \
+                                                              facet_dirs wo, facet_rgb f, float *pdf)                  \
+    {                                                                                                                  \
+        name##_eval_pdf_each(name##_fix(p->of.name, v), n, wi, wo, f, pdf);                                            \
+    }                                                                                                                  \
+    static __attribute__((noinline)) void name##_sample_##v(const prepared *p, size_t n, facet_dirs wo, facet_dirs u,  \
+                                                            facet_samples s)                                           \
+    {                                                                                                                  \
         _Generic(p->of.name, microfacet_params                                                                         \
                  : microfacet_sample_staged, default                                                                   \
                  : name##_sample_each)(name##_fix(p->of.name, v), n, wo, u, s);                                        \
+    }
+#define EVAL_CASE(name, v)                                                                                             \
+    case v:                                                                                                            \
+        name##_eval_##v(p, n, wi, wo, f);                                                                              \
         break;
+#define PDF_CASE(name, v)                                                                                              \
+    case v:                                                                                                            \
+        name##_pdf_##v(p, n, wi, wo, pdf);                                                                             \
+        break;
+#define EVAL_PDF_CASE(name, v)                                                                                         \
+    case v:                                                                                                            \
+        name##_eval_pdf_##v(p, n, wi, wo, f, pdf);                                                                     \
+        break;
+#define SAMPLE_CASE(name, v)                                                                                           \
+    case v: name##_sample_##v(p, n, wo, u, s); break;
 KERNEL void microfacet_sample_staged(microfacet_params p, size_t n, facet_dirs wo, facet_dirs u, facet_samples s);
 FACET_KERNELS(LOOP_ROWS)
 #include "batch_staged_text.h"

@@ -71,13 +71,13 @@ KERNEL student_point student_term(student_point a, int j, real c, real v, real L
 
 KERNEL student_point student_at(student s, real q)
 {
-    real q2  = q*q;
-    real L   = klog1p(q2);
-    real L2  = L*L;
-    real P   = s.p + (STUDENT_SHIFT - 0.25f);
-    real v   = 1/(P*P);
-    real x   = 1/(1 + q2);
-    real x4  = x*x*x*x;
+    real q2 = q*q;
+    real L  = klog1p(q2);
+    real L2 = L*L;
+    real P  = s.p + (STUDENT_SHIFT - 0.25f);
+    real v  = 1/(P*P);
+    real x  = 1/(1 + q2);
+    real x4 = x*x*x*x;
     student_point a;
     a.x      = x;
     a.root_x = ksqrt(x);
