@@ -22,6 +22,7 @@ import check_symbols
 import check_text
 import format as layout
 import make_metals
+import make_model_pages
 
 SPDX = "/* SPDX-License-Identifier: MIT */\n"
 
@@ -327,6 +328,56 @@ class Metals(CheckTest):
         self.assertGreater(gold.F0[0], 1)
         self.assertEqual(gold.held[0], make_metals.HIGHEST)
         self.assertEqual(gold.held[1:], gold.F0[1:])
+
+
+class ModelPages(CheckTest):
+    MODEL = {"name": "matt", "parameters": [
+        {"name": "kd", "kind": "colour", "low": 0, "high": 1, "default": [0.8, 0.8, 0.8], "unit": "1",
+         "description": "reflectance"},
+        {"name": "side", "kind": "choice", "default": "front", "choices": ["front", "back"], "description": "a|b"}]}
+    PICTURE = "docs/images/models/matt.svg"
+
+    def setUp(self):
+        super().setUp()
+        self.write(self.PICTURE, "<svg/>\n")
+        self.page = make_model_pages.with_table(
+            "# matt\n\n![a level line](../images/models/matt.svg)\n\n" + make_model_pages.BEGIN + make_model_pages.END,
+            self.MODEL["parameters"])
+
+    def problems(self, page):
+        self.write("docs/models/matt.md", page)
+        return make_model_pages.check(self.root, [self.MODEL])
+
+    def test_written_page_passes(self):
+        self.assertEqual(self.problems(self.page), [])
+        self.assertIn("| kd | 0 to 1, colour | 0.8 | 1 | reflectance |\n", self.page)
+        self.assertIn("| side | front, back | front |  | a\\|b |\n", self.page)
+
+    def test_model_without_page(self):
+        self.assert_one(make_model_pages.check(self.root, [self.MODEL]), "no page")
+
+    def test_old_table(self):
+        self.assert_one(self.problems(self.page.replace("0.8", "0.7")), "is not the program's")
+
+    def test_page_without_marks(self):
+        self.assert_one(self.problems(self.page.replace(make_model_pages.END, "")), "no marks")
+
+    def test_picture_without_words(self):
+        self.assert_one(self.problems(self.page.replace("a level line", "")), "does not show")
+
+    def test_missing_picture(self):
+        os.remove(os.path.join(self.root, self.PICTURE))
+        self.assert_one(self.problems(self.page), "is missing")
+
+    def test_large_picture(self):
+        self.write(self.PICTURE, " "*(make_model_pages.BYTES + 1))
+        self.assert_one(self.problems(self.page), "bytes")
+
+    def test_thinned_line_stays_within_its_tolerance(self):
+        points = [(x, 0.1*(x % 2) + (5 if x == 7 else 0)) for x in range(20)]
+        kept = make_model_pages.thinned(points, 0.2)
+        self.assertIn(points[7], kept)
+        self.assertLess(len(kept), 8)
 
 
 if __name__ == "__main__":
