@@ -134,6 +134,8 @@ KERNEL void microfacet_sample_staged(microfacet_params p, size_t n, facet_dirs w
 FACET_KERNELS(LOOP_ROWS)
 #include "batch_staged_text.h"
 
+#include "batch_lanes_text.h"
+
 static void gtr_excess_loop(const gtr_mixture *mixture, gtr_directions *directions)
 {
     gtr_find_excess(mixture, directions);
@@ -149,5 +151,9 @@ const batch_loops BATCH_LOOPS = {
     .pdf = {FACET_KERNELS(PDF_ENTRY)},
     .eval_pdf = {FACET_KERNELS(EVAL_PDF_ENTRY)},
     .sample = {FACET_KERNELS(SAMPLE_ENTRY)},
+    .lanes_eval = {LANE_KINDS(LANES_EVAL_ENTRY)},
+    .lanes_pdf = {LANE_KINDS(LANES_PDF_ENTRY)},
+    .lanes_eval_pdf = {LANE_KINDS(LANES_EVAL_PDF_ENTRY)},
+    .lanes_sample = {LANE_KINDS(LANES_SAMPLE_ENTRY)},
     .gtr_excess = gtr_excess_loop,
 };

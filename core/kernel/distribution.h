@@ -19,6 +19,7 @@
 #define NDF_PHONG         2
 #define NDF_GTR           3
 #define NDF_COUNT         4
+#define NDF_GTR_DIRECT    4 /* gtr without prepared polynomials: Lambda is integrated, all normals are drawn */
 #define MASKING_EXACT     0
 #define MASKING_PUBLISHED 1
 
@@ -37,7 +38,7 @@ KERNEL real distribution_drawn_D(distribution d, real3 m)
 {
     return d.kind == NDF_GGX        ? ggx_D(m, d.alpha_x, d.alpha_y)
            : d.kind == NDF_BECKMANN ? beckmann_D(m, d.alpha_x, d.alpha_y)
-           : d.kind == NDF_GTR      ? gtr_D(m, d.gtr)
+           : d.kind >= NDF_GTR      ? gtr_D(m, d.gtr)
                                     : phong_D(m, d.phong, d.alpha_x, d.alpha_y);
 }
 
@@ -53,10 +54,11 @@ KERNEL real distribution_D(distribution d, real3 m)
 /* Smith's Lambda of the distribution itself. */
 KERNEL real distribution_exact_Lambda(distribution d, real3 v)
 {
-    return d.kind == NDF_GGX        ? ggx_Lambda(v, d.alpha_x, d.alpha_y)
-           : d.kind == NDF_BECKMANN ? beckmann_Lambda(v, d.alpha_x, d.alpha_y)
-           : d.kind == NDF_GTR      ? gtr_Lambda(v, d.gtr)
-                                    : phong_Lambda(v, d.phong, d.alpha_x, d.alpha_y);
+    return d.kind == NDF_GGX          ? ggx_Lambda(v, d.alpha_x, d.alpha_y)
+           : d.kind == NDF_BECKMANN   ? beckmann_Lambda(v, d.alpha_x, d.alpha_y)
+           : d.kind == NDF_GTR        ? gtr_Lambda(v, d.gtr)
+           : d.kind == NDF_GTR_DIRECT ? gtr_Lambda_at(v, d.gtr)
+                                      : phong_Lambda(v, d.phong, d.alpha_x, d.alpha_y);
 }
 
 /* What the paper prints in its place; GGX's is exact, and gtr's spline is held in (0, 1]. */
@@ -113,7 +115,7 @@ KERNEL real3 distribution_sample_ndf(distribution d, real ux, real uy)
 {
     return select3(d.kind == NDF_GGX, ggx_sample_ndf(ux, uy, d.alpha_x, d.alpha_y),
                    select3(d.kind == NDF_BECKMANN, beckmann_sample_ndf(ux, uy, d.alpha_x, d.alpha_y),
-                           select3(d.kind == NDF_GTR, gtr_sample_ndf(ux, uy, d.gtr),
+                           select3(d.kind >= NDF_GTR, gtr_sample_ndf(ux, uy, d.gtr),
                                    phong_sample_ndf(ux, uy, d.phong, d.alpha_x, d.alpha_y))));
 }
 

@@ -147,3 +147,10 @@ KERNEL real gtr_Lambda_direct(real alpha, real gamma, real mu)
     return T/kmax(mu, COT_SMALLEST);
 }
 #endif
+
+/* Lambda_direct at v, of the shape's alpha and gamma. */
+KERNEL real gtr_Lambda_at(real3 v, gtr_shape g)
+{
+    real3 w = gtr_unstretch_direction(g, v);
+    return gtr_Lambda_direct(g.alpha, g.gamma, kabs(w.z)/kmax(ksqrt(w.x*w.x + w.y*w.y), REAL_MIN));
+}

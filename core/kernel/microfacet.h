@@ -38,6 +38,14 @@ typedef struct microfacet_params {
     energy ms;
 } microfacet_params;
 
+/* The probability of the Lambertian lobe: |Kd|/(|Kd| + |Ks|), [cs500, SampleBrdf]; departure: a specular lobe keeps a
+ * probability of 1/8, because Fresnel's term is not 0 at grazing angles when Ks is. */
+KERNEL real microfacet_p_diffuse(real3 kd, real3 ks)
+{
+    real d = length3(kd);
+    return kmin(d/kmax(d + length3(ks), REAL_MIN), 0.875f);
+}
+
 /* The specular term at a pair of directions, but for Fresnel's. */
 typedef struct specular_term {
     real3 m;      /* along wm, of any length */

@@ -80,20 +80,16 @@ static inline fresnel prepare_fresnel(const facet_material *m)
     return F;
 }
 
-/* Everything but the distribution's own shape.  The lobe is chosen as [cs500, SampleBrdf] says, by
- * |Kd|/(|Kd| + |Ks|); departure: a specular lobe keeps a probability of 1/8, because Fresnel's term is
- * not 0 at grazing angles when Ks is. */
+/* Everything but the distribution's own shape. */
 static inline microfacet_params microfacet_prepare(const facet_material *m, int kind)
 {
     microfacet_params p = {.F = prepare_fresnel(m), .kd = prepare_colour(m, "kd")};
     p.d = (distribution){.kind = kind, .masking = prepare_choice(m, "masking"), .alpha_x = 1, .alpha_y = 1};
     p.g2 = prepare_choice(m, "g2");
     p.sampling = prepare_choice(m, "sampling");
-    const real kd = length3(p.kd);
-    const real ks = length3(fresnel_reflectance(p.F, 1));
-    p.has_diffuse = kd > 0;
+    p.has_diffuse = length3(p.kd) > 0;
     p.is_one = p.sampling != SAMPLING_NDF && p.d.masking == MASKING_EXACT && !p.has_diffuse;
-    p.p_diffuse = kd > 0 ? kmin(kd/(kd + ks), 0.875f) : (real)0;
+    p.p_diffuse = microfacet_p_diffuse(p.kd, fresnel_reflectance(p.F, 1));
     return p;
 }
 

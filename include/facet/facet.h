@@ -240,6 +240,30 @@ FACET_API void facet_bsdf_eval_pdf_batch(const facet_bsdf *bsdf, size_t n, facet
 FACET_API void facet_bsdf_sample_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wo, facet_dirs u,
                                        facet_samples samples);
 
+/* Parameters that differ from element to element, as textures give them: arrays of n, or NULL for the prepared
+ * material's own value.  Set struct_size to sizeof(facet_lanes) and all else that is not used to 0.  Values beyond the
+ * range of their parameter count as its nearest end, NaN as its lower one. */
+typedef struct facet_lanes {
+    size_t struct_size;
+    const float *alpha_x, *alpha_y; /* both or neither; the same array twice for an isotropic surface */
+    const float *gamma;             /* of gtr */
+    const float *kd[3], *ks[3];     /* red, green and blue: all three or none; ks with Schlick's Fresnel term */
+} facet_lanes;
+
+/* The batch functions with parameters that vary, for ggx, beckmann, phong and gtr (and cs500 and vray) with
+ * masking=exact and energy=single.  Directions are drawn from visible normals, of gtr from all, whatever the material
+ * says.  FACET_BAD_ARGUMENT if a pointer is NULL, lanes->struct_size is unknown, or an array is given that the material
+ * does not have; FACET_UNSUPPORTED for other materials.  gtr takes some 30 ns for each direction's masking. */
+FACET_API facet_status facet_bsdf_eval_lanes(const facet_bsdf *bsdf, const facet_lanes *lanes, size_t n, facet_dirs wi,
+                                             facet_dirs wo, facet_rgb f, facet_error *why);
+FACET_API facet_status facet_bsdf_pdf_lanes(const facet_bsdf *bsdf, const facet_lanes *lanes, size_t n, facet_dirs wi,
+                                            facet_dirs wo, float *pdf, facet_error *why);
+FACET_API facet_status facet_bsdf_eval_pdf_lanes(const facet_bsdf *bsdf, const facet_lanes *lanes, size_t n,
+                                                 facet_dirs wi, facet_dirs wo, facet_rgb f, float *pdf,
+                                                 facet_error *why);
+FACET_API facet_status facet_bsdf_sample_lanes(const facet_bsdf *bsdf, const facet_lanes *lanes, size_t n,
+                                               facet_dirs wo, facet_dirs u, facet_samples samples, facet_error *why);
+
 /* The instruction sets that this processor can run, best first ("avx512", "avx2", "base"); NULL past
  * the end.  Batches use the first unless facet_isa_force names another (for tests and benchmarks: not
  * to be called while batches run).  FACET_UNKNOWN_NAME if this processor cannot run it; NULL: best. */
