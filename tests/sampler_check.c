@@ -215,7 +215,7 @@ chi_square sampler_check(sampler draw_some, const void *context, const facet_bsd
 
 void check_samplers(const sampler_case *cases, int n_cases)
 {
-    const double level = sidak_level(0.01, n_cases);
+    const double level = sidak_level(0.01, SAMPLER_CHECKS);
     for (int i = 0; i < n_cases; i++) {
         const any_bsdf bsdf = any_bsdf_of(cases[i].spec, 0);
         double wo[3];

@@ -42,7 +42,11 @@ typedef struct sampler_case {
     double cos_o, phi_o;
 } sampler_case;
 
-/* Checks the samplers of all cases against their densities, at an overall level of 0.01; prints every p. */
+/* More than there are checks in all files, in both of the builds that draw different numbers. */
+enum { SAMPLER_CHECKS = 250 };
+
+/* Checks the samplers of the cases against their densities, at a level of 0.01 for all checks of all files together;
+ * prints every p. */
 void check_samplers(const sampler_case *cases, int n_cases);
 
 #ifdef __cplusplus
