@@ -312,7 +312,7 @@ KERNEL real3 gtr_sample_tail(gtr_view v, real ux, real uy, real uz, gtr_shape g)
 }
 
 /* A normal with density D(wm) (wo.wm)+/sigma(wo), of any length; ux, uy, uz: uniform.  The tail costs ten times the
- * body and is rare; batches draw it apart (batch_staged.h). */
+ * body and is rare; batches draw it apart (batch_staged_text.h). */
 KERNEL real3 gtr_sample_vndf(real3 wo, real ux, real uy, real uz, gtr_shape g)
 {
     gtr_view v = gtr_view_of(wo, g);
