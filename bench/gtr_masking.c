@@ -1,10 +1,11 @@
-/* gtr_masking.c: nanoseconds per Lambda of GTR by each way to compute it, per D and per fit, beside GGX.
+/* gtr_masking.c: nanoseconds per Lambda of GTR by each way to compute it, per D, per visible normal
+ * and per fit, beside GGX.
  *
  *     gtr_masking
  *
- * One core; loops over the kernels at AVX-512, compiled with the flags of the library, 4096 elements in cache, best of
- * 300 runs; the fit is the library's.  "published" is [vray]'s closed forms and spline with weights prepared per gamma,
- * vectorised like the rest.
+ * One core; the library's loops at AVX-512 (core/batch_terms_text.h), a block of 512 elements in cache, best of 300
+ * runs; the fit is the library's.  "published" is [vray]'s closed forms and spline with weights prepared per gamma,
+ * in one loop: it is short.
  * SPDX-License-Identifier: MIT */
 #if defined(__x86_64__)
 #if defined(__clang__)
@@ -15,16 +16,18 @@
 #define FACET_REAL_IS_DOUBLE 0
 #define FACET_LOOPS
 #define FACET_PREPARE
+#include "core/batch_terms_text.h"
 #include "core/model/model_gtr.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <time.h>
 
-enum { N = 4096, ROUNDS = 300 };
+enum { ROUNDS = 300, REPEATS = 64 };
 
-static float x[N], y[N], z[N], alphas[N], gammas[N], mus[N];
-float gtr_bench_out[N]; /* visible outside, so that it is written */
+static float x[BLOCK], y[BLOCK], z[BLOCK], alphas[BLOCK], gammas[BLOCK], mus[BLOCK], numbers[3][BLOCK];
+static const float steps[3] = {0.8191725f, 0.6710436f, 0.5497005f}; /* of a lattice */
+float gtr_bench_out[BLOCK];                                         /* visible outside, so that it is written */
 
 static double seconds(void)
 {
@@ -33,26 +36,48 @@ static double seconds(void)
     return (double)t.tv_sec + 1e-9*(double)t.tv_nsec;
 }
 
-#define LOOP(name, expression)                                                                                         \
-    static __attribute__((noinline)) void name(const gtr_shape *shape, gtr_spline spline)                              \
-    {                                                                                                                  \
-        const gtr_shape g = *shape;                                                                                    \
-        (void)spline, (void)g;                                                                                         \
-        _Pragma("omp simd") for (int i = 0; i < N; i++) gtr_bench_out[i] = (expression);                               \
-    }
-LOOP(loop_ggx, ggx_sigma(make3(x[i], y[i], z[i]), g.alpha, g.alpha))
-LOOP(loop_prepared, gtr_sigma(make3(x[i], y[i], z[i]), g))
-LOOP(loop_published, gtr_published_G1(make3(x[i], y[i], z[i]), g, spline))
-LOOP(loop_direct, gtr_Lambda_direct(alphas[i], gammas[i], mus[i]))
-LOOP(loop_D, gtr_D(make3(x[i], y[i], z[i]), g))
+static void run_ggx(const distribution *d)
+{
+    const distribution q = *d;
+    EACH_OF(BLOCK) gtr_bench_out[i] = ggx_sigma(make3(x[i], y[i], z[i]), q.alpha_x, q.alpha_y);
+}
 
-static double best_ns(void (*loop)(const gtr_shape *, gtr_spline), const gtr_shape *g, gtr_spline spline)
+static void run_prepared(const distribution *d)
+{
+    gtr_exact_sigma(d, BLOCK, (facet_dirs){x, y, z}, gtr_bench_out);
+}
+
+static void run_published(const distribution *d)
+{
+    const distribution q = *d;
+    EACH_OF(BLOCK) gtr_bench_out[i] = gtr_published_G1(make3(x[i], y[i], z[i]), q.gtr, q.spline);
+}
+
+static void run_direct(const distribution *d)
+{
+    (void)d;
+    gtr_direct_block(BLOCK, alphas, gammas, mus, gtr_bench_out);
+}
+
+static void run_D(const distribution *d)
+{
+    gtr_drawn_D(d, BLOCK, (facet_dirs){x, y, z}, gtr_bench_out);
+}
+
+static void run_visible(const distribution *d)
+{
+    block_vectors m;
+    gtr_visible_normals(d, BLOCK, (facet_dirs){x, y, z}, (facet_dirs){numbers[0], numbers[1], numbers[2]}, &m);
+    gtr_bench_out[0] = m.x[0];
+}
+
+static double best_ns(void (*run)(const distribution *), const distribution *d)
 {
     double best = INFINITY;
     for (int r = 0; r < ROUNDS; r++) {
         const double start = seconds();
-        for (int k = 0; k < 8; k++) loop(g, spline);
-        best = fmin(best, (seconds() - start)*1e9/(8*N));
+        for (int k = 0; k < REPEATS; k++) run(d);
+        best = fmin(best, (seconds() - start)*1e9/(REPEATS*BLOCK));
     }
     return best;
 }
@@ -75,22 +100,29 @@ int main(void)
         printf("gtr: this processor has no AVX-512\n");
         return 0;
     }
-    for (int i = 0; i < N; i++) {
-        z[i] = ((float)i + 0.5f)/N;
+    for (int i = 0; i < BLOCK; i++) {
+        z[i] = ((float)(i*77%BLOCK) + 0.5f)/BLOCK;
         x[i] = sqrtf(1 - z[i]*z[i])*cosf(2.4f*(float)i);
         y[i] = sqrtf(1 - z[i]*z[i])*sinf(2.4f*(float)i);
+        mus[i] = z[i]/sqrtf(1 - z[i]*z[i]);
         alphas[i] = 0.01f + 0.9f*(float)(i*37%101)/101;
         gammas[i] = 0.2f + 4*(float)(i*53%103)/103;
-        mus[i] = z[i]/sqrtf(1 - z[i]*z[i]);
+        for (int k = 0; k < 3; k++) numbers[k][i] = fmodf(((float)i + 0.5f)*steps[k], 1);
     }
-    printf("%-22s %8s %8s %8s %8s %8s %8s  [ns]\n", "alpha, gamma", "ggx", "G1", "publ.", "direct", "D", "fit");
-    static const double shapes[][2] = {{.1, 1.5}, {.3, .7}, {1e-3, 1}, {1e-4, 2.5}, {.05, 3}, {.3, 8}, {.5, 20}};
+    printf("%-22s %8s %8s %8s %8s %8s %8s %8s  [ns]\n", "alpha, gamma", "ggx", "G1", "publ.", "direct", "D", "visible",
+           "fit");
+    static const double shapes[][2] = {{.1, 1.5},   {.3, 1.5}, {.1, .7}, {.3, .7}, {1e-3, 1},
+                                       {1e-4, 2.5}, {.05, 3},  {.3, 8},  {.5, 20}};
     for (size_t s = 0; s < sizeof shapes/sizeof shapes[0]; s++) {
-        const gtr_shape g = gtr_shape_of((float)shapes[s][0], (float)shapes[s][0], (float)shapes[s][1], GTR_STRETCHED);
-        const gtr_spline spline = gtr_spline_at((float)shapes[s][1]);
-        printf("%-10g %-11g %8.2f %8.2f %8.2f %8.2f %8.2f %8.0f\n", shapes[s][0], shapes[s][1],
-               best_ns(loop_ggx, &g, spline), best_ns(loop_prepared, &g, spline), best_ns(loop_published, &g, spline),
-               best_ns(loop_direct, &g, spline), best_ns(loop_D, &g, spline), fit_ns(shapes[s][0], shapes[s][1]));
+        const float alpha = (float)shapes[s][0], gamma = (float)shapes[s][1];
+        const distribution d = {.kind = NDF_GTR,
+                                .alpha_x = alpha,
+                                .alpha_y = alpha,
+                                .gtr = gtr_shape_of(alpha, alpha, gamma, GTR_STRETCHED),
+                                .spline = gtr_spline_at(gamma)};
+        printf("%-10g %-11g %8.2f %8.2f %8.2f %8.2f %8.2f %8.2f %8.0f\n", shapes[s][0], shapes[s][1],
+               best_ns(run_ggx, &d), best_ns(run_prepared, &d), best_ns(run_published, &d), best_ns(run_direct, &d),
+               best_ns(run_D, &d), best_ns(run_visible, &d), fit_ns(shapes[s][0], shapes[s][1]));
     }
     return 0;
 }

@@ -23,8 +23,7 @@ typedef struct lane_block {
 
 /* Loops by kernel, in the order of model_table.h. */
 struct prepared;
-struct gtr_mixture;
-struct gtr_directions;
+struct gtr_fit_loops;
 typedef struct batch_loops {
     const char *name;
     void (*eval[BATCH_KERNELS])(const struct prepared *p, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f);
@@ -42,8 +41,8 @@ typedef struct batch_loops {
                                              facet_dirs wo, facet_rgb f, float *pdf);
     void (*lanes_sample[BATCH_LANE_KINDS])(const struct prepared *p, const lane_block *lanes, facet_dirs wo,
                                            facet_dirs u, facet_samples samples);
-    /* For preparing gtr: gtr_find_excess of gtr_mixture.h. */
-    void (*gtr_excess)(const struct gtr_mixture *mixture, struct gtr_directions *directions);
+    /* For preparing gtr (gtr_fit.h). */
+    const struct gtr_fit_loops *gtr_fit;
 } batch_loops;
 
 /* The table in use. */

@@ -7,6 +7,7 @@
 #pragma GCC target("avx2")
 #endif
 #define BATCH_LOOPS facet_batch_avx2
+#define BATCH_GTR_FIT facet_gtr_fit_avx2
 #define BATCH_NAME "avx2"
 #include "batch_text.h"
 #if defined(__clang__)

@@ -7,6 +7,7 @@
 #pragma GCC target("avx512f,avx512vl,avx512dq,avx512bw")
 #endif
 #define BATCH_LOOPS facet_batch_avx512
+#define BATCH_GTR_FIT facet_gtr_fit_avx512
 #define BATCH_NAME "avx512"
 #include "batch_text.h"
 #if defined(__clang__)

@@ -18,14 +18,47 @@ KERNEL microfacet_params params_of_lane(microfacet_params p, int kind, const lan
     return microfacet_at_lane(q, lane);
 }
 
+/* gtr integrates Lambda for each element, in stages; the others find their terms where they are used. */
+#define LANE_TERMS(kind) (kind == NDF_GTR_DIRECT ? terms_of(&t, i) : microfacet_terms_at(q, to_light, to_viewer))
+
+/* The terms of gtr at directions and the sums of them, in stages (batch_microfacet_text.h). */
+static __attribute__((noinline)) void gtr_lane_terms(const lane_block *b, facet_dirs wi, facet_dirs wo, block_terms *t)
+{
+    const size_t n = b->n, whole = whole_vectors(n);
+    float alpha[BLOCK], mu_i[BLOCK], mu_o[BLOCK];
+    for (size_t i = n; i < whole; i++) alpha[i] = mu_i[i] = mu_o[i] = 1;
+    _Pragma("omp simd") for (size_t i = 0; i < n; i++)
+    {
+        const gtr_shape g = gtr_elementary_shape(b->alpha_x[i], b->alpha_y[i], b->gamma[i]);
+        const real3 light = gather(wi, i), viewer = gather(wo, i);
+        alpha[i] = g.alpha;
+        mu_i[i] = gtr_cot(light, g);
+        mu_o[i] = gtr_cot(viewer, g);
+        t->D[i] = gtr_D(add3(light, viewer), g);
+    }
+    gtr_direct_block(whole, alpha, b->gamma, mu_i, t->sigma_i);
+    gtr_direct_block(whole, alpha, b->gamma, mu_o, t->sigma_o);
+    _Pragma("omp simd") for (size_t i = 0; i < n; i++)
+    {
+        t->sigma_i[i] = wi.z[i]*(1 + t->sigma_i[i]);
+        t->sigma_o[i] = wo.z[i]*(1 + t->sigma_o[i]);
+    }
+    t->drawn_D = t->D;
+    t->drawn_sigma = t->sigma_o;
+}
+
 #define LANE_LOOPS(name, kind)                                                                                         \
     static void name##_lanes_eval(const prepared *p, const lane_block *b, facet_dirs wi, facet_dirs wo, facet_rgb f)   \
     {                                                                                                                  \
         const microfacet_params common = p->of.microfacet;                                                             \
         float *restrict const red = f.r, *restrict const green = f.g, *restrict const blue = f.b;                      \
+        block_terms t;                                                                                                 \
+        if (kind == NDF_GTR_DIRECT) gtr_lane_terms(b, wi, wo, &t);                                                     \
         _Pragma("omp simd") for (size_t i = 0; i < b->n; i++)                                                          \
         {                                                                                                              \
-            const real3 v = microfacet_eval(params_of_lane(common, kind, b, i), gather(wi, i), gather(wo, i));         \
+            const microfacet_params q = params_of_lane(common, kind, b, i);                                            \
+            const real3 to_light = gather(wi, i), to_viewer = gather(wo, i);                                           \
+            const real3 v = microfacet_eval_with(q, LANE_TERMS(kind), to_light, to_viewer);                            \
             red[i] = v.x;                                                                                              \
             green[i] = v.y;                                                                                            \
             blue[i] = v.z;                                                                                             \
@@ -35,8 +68,14 @@ KERNEL microfacet_params params_of_lane(microfacet_params p, int kind, const lan
     {                                                                                                                  \
         const microfacet_params common = p->of.microfacet;                                                             \
         float *restrict const out = pdf;                                                                               \
+        block_terms t;                                                                                                 \
+        if (kind == NDF_GTR_DIRECT) gtr_lane_terms(b, wi, wo, &t);                                                     \
         _Pragma("omp simd") for (size_t i = 0; i < b->n; i++)                                                          \
-            out[i] = microfacet_pdf(params_of_lane(common, kind, b, i), gather(wi, i), gather(wo, i));                 \
+        {                                                                                                              \
+            const microfacet_params q = params_of_lane(common, kind, b, i);                                            \
+            const real3 to_light = gather(wi, i), to_viewer = gather(wo, i);                                           \
+            out[i] = microfacet_pdf_with(q, LANE_TERMS(kind), to_light, to_viewer);                                    \
+        }                                                                                                              \
     }                                                                                                                  \
     static void name##_lanes_eval_pdf(const prepared *p, const lane_block *b, facet_dirs wi, facet_dirs wo,            \
                                       facet_rgb f, float *pdf)                                                         \
@@ -44,12 +83,15 @@ KERNEL microfacet_params params_of_lane(microfacet_params p, int kind, const lan
         const microfacet_params common = p->of.microfacet;                                                             \
         float *restrict const red = f.r, *restrict const green = f.g, *restrict const blue = f.b;                      \
         float *restrict const out = pdf;                                                                               \
+        block_terms t;                                                                                                 \
+        if (kind == NDF_GTR_DIRECT) gtr_lane_terms(b, wi, wo, &t);                                                     \
         _Pragma("omp simd") for (size_t i = 0; i < b->n; i++)                                                          \
         {                                                                                                              \
             const microfacet_params q = params_of_lane(common, kind, b, i);                                            \
             const real3 to_light = gather(wi, i), to_viewer = gather(wo, i);                                           \
-            const real3 v = microfacet_eval(q, to_light, to_viewer);                                                   \
-            const real density = microfacet_pdf(q, to_light, to_viewer);                                               \
+            const smith_terms terms = LANE_TERMS(kind);                                                                \
+            const real3 v = microfacet_eval_with(q, terms, to_light, to_viewer);                                       \
+            const real density = microfacet_pdf_with(q, terms, to_light, to_viewer);                                   \
             red[i] = v.x;                                                                                              \
             green[i] = v.y;                                                                                            \
             blue[i] = v.z;                                                                                             \
@@ -60,9 +102,22 @@ KERNEL microfacet_params params_of_lane(microfacet_params p, int kind, const lan
                                     facet_samples to)                                                                  \
     {                                                                                                                  \
         const microfacet_params common = p->of.microfacet;                                                             \
+        block_terms t;                                                                                                 \
+        block_vectors normals, lights;                                                                                 \
         _Pragma("omp simd") for (size_t i = 0; i < b->n; i++)                                                          \
         {                                                                                                              \
-            const bsdf_sample s = microfacet_sample(params_of_lane(common, kind, b, i), gather(wo, i), gather(u, i));  \
+            const microfacet_params q = params_of_lane(common, kind, b, i);                                            \
+            const real3 m = microfacet_sample_normal(q, gather(wo, i), gather(u, i));                                  \
+            scatter(&normals, i, m);                                                                                   \
+            scatter(&lights, i, microfacet_sample_direction(q, gather(wo, i), gather(u, i), m));                       \
+        }                                                                                                              \
+        if (kind == NDF_GTR_DIRECT) gtr_lane_terms(b, dirs_of(&lights), wo, &t);                                       \
+        _Pragma("omp simd") for (size_t i = 0; i < b->n; i++)                                                          \
+        {                                                                                                              \
+            const microfacet_params q = params_of_lane(common, kind, b, i);                                            \
+            const real3 to_light = gather(dirs_of(&lights), i), to_viewer = gather(wo, i);                             \
+            const bsdf_sample s = microfacet_complete(q, LANE_TERMS(kind), to_light, to_viewer, gather(u, i),          \
+                                                      gather(dirs_of(&normals), i));                                   \
             to.wi_x[i] = s.wi.x;                                                                                       \
             to.wi_y[i] = s.wi.y;                                                                                       \
             to.wi_z[i] = s.wi.z;                                                                                       \

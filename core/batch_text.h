@@ -1,27 +1,25 @@
 /* batch_text.h: the loops over batches, written once for every instruction set.
  *
- * Included by batch_base.c, batch_avx2.c and batch_avx512.c, which define BATCH_LOOPS, the table's symbol, and
- * BATCH_NAME, the name that users give.  Each loop copies its parameters to a local, so that the compiler
- * knows that the outputs do not change them.
+ * Included by batch_base.c, batch_avx2.c and batch_avx512.c, which define BATCH_LOOPS, the table's symbol,
+ * BATCH_NAME, the name that users give, and BATCH_GTR_FIT.  Each loop copies its parameters to a local, so that the
+ * compiler knows that the outputs do not change them.
  * SPDX-License-Identifier: MIT */
 #define FACET_REAL_IS_DOUBLE 0
 #define FACET_LOOPS
 #include "batch.h"
-#include "gtr_mixture.h"
+#include "batch_terms_text.h"
+#include "gtr_fit.h"
 #include "model_table.h"
 #include "prepared.h"
 
 _Static_assert((int)KERNEL_COUNT <= BATCH_KERNELS, "batch.h has room for every kernel");
 
-static inline real3 gather(facet_dirs d, size_t i)
-{
-    return make3(d.x[i], d.y[i], d.z[i]);
-}
-
 /* One loop per variant; a variant's constants are known where the loop is compiled. */
-#define LOOP_ROWS(name)                                                                                                \
-    KERNEL void name##_eval_each(name##_params p, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f)                 \
+#define EACH_ROWS(name)                                                                                                \
+    KERNEL void name##_eval_each(const name##_params *given, int variant, size_t n, facet_dirs wi, facet_dirs wo,      \
+                                 facet_rgb f)                                                                          \
     {                                                                                                                  \
+        const name##_params p = name##_fix(*given, variant);                                                           \
         float *restrict const r = f.r, *restrict const g = f.g, *restrict const b = f.b;                               \
         _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                             \
         {                                                                                                              \
@@ -31,13 +29,17 @@ static inline real3 gather(facet_dirs d, size_t i)
             b[i] = value.z;                                                                                            \
         }                                                                                                              \
     }                                                                                                                  \
-    KERNEL void name##_pdf_each(name##_params p, size_t n, facet_dirs wi, facet_dirs wo, float *pdf)                   \
+    KERNEL void name##_pdf_each(const name##_params *given, int variant, size_t n, facet_dirs wi, facet_dirs wo,       \
+                                float *pdf)                                                                            \
     {                                                                                                                  \
+        const name##_params p = name##_fix(*given, variant);                                                           \
         float *restrict const out = pdf;                                                                               \
         _Pragma("omp simd") for (size_t i = 0; i < n; i++) out[i] = name##_pdf(p, gather(wi, i), gather(wo, i));       \
     }                                                                                                                  \
-    KERNEL void name##_eval_pdf_each(name##_params p, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f, float *pdf) \
+    KERNEL void name##_eval_pdf_each(const name##_params *given, int variant, size_t n, facet_dirs wi, facet_dirs wo,  \
+                                     facet_rgb f, float *pdf)                                                          \
     {                                                                                                                  \
+        const name##_params p = name##_fix(*given, variant);                                                           \
         float *restrict const r = f.r, *restrict const g = f.g, *restrict const b = f.b, *restrict const out = pdf;    \
         _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                             \
         {                                                                                                              \
@@ -50,8 +52,10 @@ static inline real3 gather(facet_dirs d, size_t i)
             out[i] = density;                                                                                          \
         }                                                                                                              \
     }                                                                                                                  \
-    KERNEL void name##_sample_each(name##_params p, size_t n, facet_dirs wo, facet_dirs u, facet_samples s)            \
+    KERNEL void name##_sample_each(const name##_params *given, int variant, size_t n, facet_dirs wo, facet_dirs u,     \
+                                   facet_samples s)                                                                    \
     {                                                                                                                  \
+        const name##_params p = name##_fix(*given, variant);                                                           \
         const facet_samples to = s;                                                                                    \
         _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                             \
         {                                                                                                              \
@@ -64,7 +68,8 @@ static inline real3 gather(facet_dirs d, size_t i)
             to.weight_g[i] = drawn.weight.y;                                                                           \
             to.weight_b[i] = drawn.weight.z;                                                                           \
         }                                                                                                              \
-    }                                                                                                                  \
+    }
+#define LOOP_ROWS(name)                                                                                                \
     EACH_VARIANT_##name(VARIANT_LOOPS, name) static void name##_eval_loop(const prepared *p, size_t n, facet_dirs wi,  \
                                                                           facet_dirs wo, facet_rgb f)                  \
     {                                                                                                                  \
@@ -91,30 +96,30 @@ static inline real3 gather(facet_dirs d, size_t i)
             EACH_VARIANT_##name(SAMPLE_CASE, name)                                                                     \
         }                                                                                                              \
     }
-/* The loops of one variant.  A function each: gcc gives up on the records of parameters where many share one.  gtr, one
- * of the distributions of the kernel microfacet, has a sampling loop of its own. */
+/* The loops of one variant.  A function each: gcc gives up on the records of parameters where many share one.  The
+ * kernel microfacet has loops of its own (batch_microfacet_text.h). */
+#define OWN_LOOP(name, verb)                                                                                           \
+    _Generic(p->of.name, microfacet_params : microfacet_##verb##_staged, default : name##_##verb##_each)
 #define VARIANT_LOOPS(name, v)                                                                                         \
     static __attribute__((noinline)) void name##_eval_##v(const prepared *p, size_t n, facet_dirs wi, facet_dirs wo,   \
                                                           facet_rgb f)                                                 \
     {                                                                                                                  \
-        name##_eval_each(name##_fix(p->of.name, v), n, wi, wo, f);                                                     \
+        OWN_LOOP(name, eval)(&p->of.name, v, n, wi, wo, f);                                                            \
     }                                                                                                                  \
     static __attribute__((noinline)) void name##_pdf_##v(const prepared *p, size_t n, facet_dirs wi, facet_dirs wo,    \
                                                          float *pdf)                                                   \
     {                                                                                                                  \
-        name##_pdf_each(name##_fix(p->of.name, v), n, wi, wo, pdf);                                                    \
+        OWN_LOOP(name, pdf)(&p->of.name, v, n, wi, wo, pdf);                                                           \
     }                                                                                                                  \
     static __attribute__((noinline)) void name##_eval_pdf_##v(const prepared *p, size_t n, facet_dirs wi,              \
                                                               facet_dirs wo, facet_rgb f, float *pdf)                  \
     {                                                                                                                  \
-        name##_eval_pdf_each(name##_fix(p->of.name, v), n, wi, wo, f, pdf);                                            \
+        OWN_LOOP(name, eval_pdf)(&p->of.name, v, n, wi, wo, f, pdf);                                                   \
     }                                                                                                                  \
     static __attribute__((noinline)) void name##_sample_##v(const prepared *p, size_t n, facet_dirs wo, facet_dirs u,  \
                                                             facet_samples s)                                           \
     {                                                                                                                  \
-        _Generic(p->of.name, microfacet_params                                                                         \
-                 : microfacet_sample_staged, default                                                                   \
-                 : name##_sample_each)(name##_fix(p->of.name, v), n, wo, u, s);                                        \
+        OWN_LOOP(name, sample)(&p->of.name, v, n, wo, u, s);                                                           \
     }
 #define EVAL_CASE(name, v)                                                                                             \
     case v:                                                                                                            \
@@ -130,16 +135,11 @@ static inline real3 gather(facet_dirs d, size_t i)
         break;
 #define SAMPLE_CASE(name, v)                                                                                           \
     case v: name##_sample_##v(p, n, wo, u, s); break;
-KERNEL void microfacet_sample_staged(microfacet_params p, size_t n, facet_dirs wo, facet_dirs u, facet_samples s);
+FACET_KERNELS(EACH_ROWS)
+#include "batch_microfacet_text.h"
 FACET_KERNELS(LOOP_ROWS)
-#include "batch_staged_text.h"
 
 #include "batch_lanes_text.h"
-
-static void gtr_excess_loop(const gtr_mixture *mixture, gtr_directions *directions)
-{
-    gtr_find_excess(mixture, directions);
-}
 
 #define EVAL_ENTRY(name) name##_eval_loop,
 #define PDF_ENTRY(name) name##_pdf_loop,
@@ -155,5 +155,5 @@ const batch_loops BATCH_LOOPS = {
     .lanes_pdf = {LANE_KINDS(LANES_PDF_ENTRY)},
     .lanes_eval_pdf = {LANE_KINDS(LANES_EVAL_PDF_ENTRY)},
     .lanes_sample = {LANE_KINDS(LANES_SAMPLE_ENTRY)},
-    .gtr_excess = gtr_excess_loop,
+    .gtr_fit = &BATCH_GTR_FIT,
 };

@@ -16,6 +16,7 @@ typedef struct gtr_fit {
     double T0;               /* T(mu) = mu Lambda(mu) at mu = 0 */
     int form;                /* GTR_LOGARITHM, GTR_QUOTIENT */
     double scale, offset;    /* the polynomial's variable is scale v + offset, v by the form */
+    int count;               /* terms that are not 0; a multiple of 4 */
     double terms[GTR_TERMS]; /* coefficients of its powers */
     double guess_scale, guess_slope;
     double guess[GTR_GUESS];
@@ -30,6 +31,18 @@ void facet_gtr_fit_pieces(double alpha, double gamma, gtr_fit *fit, double piece
 
 /* D at the normal of Disney's anisotropic D. */
 double facet_gtr_fit_disney_peak(double alpha_x, double alpha_y, double gamma);
+
+/* The same, by instruction set; those above take the table of the loops in use (batch.h). */
+typedef struct gtr_fit_loops {
+    void (*shape)(double alpha, double gamma, gtr_fit *fit);
+    void (*pieces)(double alpha, double gamma, gtr_fit *fit, double pieces[GTR_PIECES][GTR_TERMS]);
+    double (*disney_peak)(double alpha_x, double alpha_y, double gamma);
+} gtr_fit_loops;
+extern const gtr_fit_loops facet_gtr_fit_base;
+#if defined(__x86_64__)
+extern const gtr_fit_loops facet_gtr_fit_avx2;
+extern const gtr_fit_loops facet_gtr_fit_avx512;
+#endif
 
 #ifdef __cplusplus
 }

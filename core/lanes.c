@@ -72,6 +72,7 @@ static facet_status begin(const facet_bsdf *bsdf, const facet_lanes *lanes, lane
 static void fill(float *restrict to, size_t n, const float *from, float value, float lowest, float highest)
 {
     for (size_t i = 0; i < n; i++) to[i] = from ? kclamp(from[i], lowest, highest) : value;
+    for (size_t i = n; i < LANES_BLOCK; i++) to[i] = value; /* vectors reach beyond the last element */
 }
 
 /* The block of elements that starts at `first`, of n in all. */

@@ -113,17 +113,17 @@ KERNEL real distribution_tan2_beyond(distribution d, real share, real rest)
 /* A normal with density D cos_m, of any length. */
 KERNEL real3 distribution_sample_ndf(distribution d, real ux, real uy)
 {
-    return select3(d.kind == NDF_GGX, ggx_sample_ndf(ux, uy, d.alpha_x, d.alpha_y),
-                   select3(d.kind == NDF_BECKMANN, beckmann_sample_ndf(ux, uy, d.alpha_x, d.alpha_y),
-                           select3(d.kind >= NDF_GTR, gtr_sample_ndf(ux, uy, d.gtr),
-                                   phong_sample_ndf(ux, uy, d.phong, d.alpha_x, d.alpha_y))));
+    return d.kind == NDF_GGX        ? ggx_sample_ndf(ux, uy, d.alpha_x, d.alpha_y)
+           : d.kind == NDF_BECKMANN ? beckmann_sample_ndf(ux, uy, d.alpha_x, d.alpha_y)
+           : d.kind >= NDF_GTR      ? gtr_sample_ndf(ux, uy, d.gtr)
+                                    : phong_sample_ndf(ux, uy, d.phong, d.alpha_x, d.alpha_y);
 }
 
 /* A normal with density D (wo.wm)+/sigma(wo), of any length; gtr uses a third number. */
 KERNEL real3 distribution_sample_vndf(distribution d, real3 wo, real ux, real uy, real uz)
 {
-    return select3(d.kind == NDF_GGX, ggx_sample_vndf(wo, ux, uy, d.alpha_x, d.alpha_y),
-                   select3(d.kind == NDF_BECKMANN, beckmann_sample_vndf(wo, ux, uy, d.alpha_x, d.alpha_y),
-                           select3(d.kind == NDF_GTR, gtr_sample_vndf(wo, ux, uy, uz, d.gtr),
-                                   phong_sample_vndf(wo, ux, uy, d.phong, d.alpha_x, d.alpha_y))));
+    return d.kind == NDF_GGX        ? ggx_sample_vndf(wo, ux, uy, d.alpha_x, d.alpha_y)
+           : d.kind == NDF_BECKMANN ? beckmann_sample_vndf(wo, ux, uy, d.alpha_x, d.alpha_y)
+           : d.kind == NDF_GTR      ? gtr_sample_vndf(wo, ux, uy, uz, d.gtr)
+                                    : phong_sample_vndf(wo, ux, uy, d.phong, d.alpha_x, d.alpha_y);
 }

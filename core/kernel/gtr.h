@@ -34,6 +34,7 @@
 
 typedef struct gtr_shape {
     int form;                  /* GTR_LOGARITHM, GTR_QUOTIENT */
+    int count;                 /* terms that are not 0; a multiple of 4 */
     int anisotropy;            /* GTR_STRETCHED, GTR_DISNEY */
     real alpha, gamma;         /* of the isotropic GTR before the stretch */
     real stretch_x, stretch_y; /* their product is 1 */
@@ -61,8 +62,8 @@ KERNEL real3 gtr_unstretch_direction(gtr_shape g, real3 v) { return make3(g.stre
 /* 1 + k0/alpha^2 sin^2 after the unstretch, and the square of cos_unstretched/cos over the squared length of m. */
 KERNEL real2 gtr_base(real3 m, gtr_shape g)
 {
-    real x    = m.x/g.stretch_x;
-    real y    = m.y/g.stretch_y;
+    real x    = m.x*g.stretch_y;
+    real y    = m.y*g.stretch_x;
     real sin2 = x*x + y*y;
     real inv  = 1/kmax(sin2 + m.z*m.z, REAL_MIN);
     return make2(1 + g.k0/(g.alpha*g.alpha)*(sin2*inv), dot3(m, m)*inv);
@@ -71,12 +72,14 @@ KERNEL real2 gtr_base(real3 m, gtr_shape g)
 /* D at the direction of m, 1/sr; m need not be a unit vector.  [disney, 1, 4, 8]:
  *     D = c/(1 + (alpha^2 - 1) cos^2)^gamma.
  * Departure: D = D(n) (1 + k0/alpha^2 sin^2)^-gamma with sin^2 from the vector, which neither overflows nor cancels.
- * The stretch divides the slopes and multiplies D by (cos_unstretched/cos)^4. */
-KERNEL real gtr_D(real3 m, gtr_shape g)
+ * The stretch divides the slopes and multiplies D by (cos_unstretched/cos)^4.  power: the base to the -gamma. */
+KERNEL real gtr_D_of(real3 m, gtr_shape g, real power)
 {
     real2 base = gtr_base(m, g);
-    return m.z > 0 ? g.peak*base.y*base.y*kexp(-g.gamma*klog(base.x)) : (real)0;
+    return m.z > 0 ? g.peak*base.y*base.y*power : (real)0;
 }
+
+KERNEL real gtr_D(real3 m, gtr_shape g) { return gtr_D_of(m, g, kexp(-g.gamma*klog_quick(gtr_base(m, g).x))); }
 
 /* [disney, 10] with any exponent: the same core, tails not stretched. */
 KERNEL real gtr_disney_D(real3 m, gtr_shape g)
@@ -85,55 +88,83 @@ KERNEL real gtr_disney_D(real3 m, gtr_shape g)
     return m.z > 0 ? g.disney_peak*kexp(-g.gamma*klog(base.x/base.y)) : (real)0;
 }
 
-/* A at 1/s, and its derivative by ln s.  The compiler leaves out what is not used. */
-#if FACET_REAL_IS_DOUBLE
-/* In double A takes several polynomials; it is not evaluated in vectors, where looking one up would cost. */
-KERNEL real2 gtr_A(gtr_shape g, real inverse)
-{
-    real x     = kclamp(g.scale*klog(inverse) + g.offset, 0, GTR_PIECES);
-    int piece  = (int)kmin(kfloor(x), GTR_PIECES - 1);
-    real local = 2*(x - piece) - 1;
-    real A     = g.terms[piece][GTR_TERMS - 1];
-    real slope = 0;
-    for (int k = GTR_TERMS - 2; k >= 0; k--) {
-        slope = A + local*slope;
-        A     = g.terms[piece][k] + local*A;
-    }
-    return make2(kmax(A, 0), -2*g.scale*slope);
-}
-#else
-KERNEL real2 gtr_A(gtr_shape g, real inverse)
-{
-    real v = g.form == GTR_LOGARITHM ? klog(inverse) : inverse;
-    real x = kclamp(g.scale*v + g.offset, -1, 1);
-    real x2 = x*x;
-    real x4 = x2*x2;
-    real p0 = g.terms[0] + x4*(g.terms[4] + x4*(g.terms[8] + x4*(g.terms[12] + x4*g.terms[16])));
-    real p1 = g.terms[1] + x4*(g.terms[5] + x4*(g.terms[9] + x4*(g.terms[13] + x4*g.terms[17])));
-    real p2 = g.terms[2] + x4*(g.terms[6] + x4*(g.terms[10] + x4*(g.terms[14] + x4*g.terms[18])));
-    real p3 = g.terms[3] + x4*(g.terms[7] + x4*(g.terms[11] + x4*(g.terms[15] + x4*g.terms[19])));
-    real slope = 0;
-    UNROLL
-    for (int k = GTR_TERMS - 1; k > 0; k--) slope = k*g.terms[k] + x*slope;
-    real value = (p0 + x*p1) + x2*(p2 + x*p3);
-    real A = g.form == GTR_LOGARITHM ? value*value : kmax(value, 0);
-    real dA = slope*(g.form == GTR_LOGARITHM ? 2*value : inverse);
-    return make2(A, -g.scale*dA);
-}
-#endif
-
 /* 1/s at a direction with these squares of the cosine and the sine, of any common scale. */
 KERNEL real gtr_inverse_s(gtr_shape g, real cos2, real sin2)
 {
     return (cos2 + sin2)/(cos2 + g.alpha*g.alpha*sin2);
 }
 
-/* The projected area of the microfacets that face v, cos (1 + Lambda); v.z > 0. */
-KERNEL real gtr_sigma(real3 v, gtr_shape g)
+/* The polynomial's variable at 1/s, and A there with its derivative by the variable, which is left out where it is not
+ * used.  count: at least g.count; the further terms are 0. */
+#if FACET_REAL_IS_DOUBLE
+/* In double A takes several polynomials; it is not evaluated in vectors, where looking one up would cost. */
+KERNEL real gtr_variable(gtr_shape g, real inverse)
 {
-    real3 w   = gtr_unstretch_direction(g, v);
-    real sin2 = w.x*w.x + w.y*w.y;
-    real cos2 = w.z*w.z;
-    real A    = gtr_A(g, gtr_inverse_s(g, cos2, sin2)).x;
-    return 0.5f*(w.z + ksqrt(cos2 + A*sin2));
+    return kclamp(g.scale*klog(inverse) + g.offset, 0, GTR_PIECES);
 }
+
+KERNEL real2 gtr_A_by(gtr_shape g, real x, int count)
+{
+    int piece  = (int)kmin(kfloor(x), GTR_PIECES - 1);
+    real local = 2*(x - piece) - 1;
+    real A     = 0;
+    real slope = 0;
+    for (int k = count - 1; k >= 0; k--) {
+        slope = A + local*slope;
+        A     = g.terms[piece][k] + local*A;
+    }
+    return make2(kmax(A, 0), 2*slope);
+}
+#else
+KERNEL real gtr_variable(gtr_shape g, real inverse)
+{
+    return kclamp(g.scale*(g.form == GTR_LOGARITHM ? klog_quick(inverse) : inverse) + g.offset, -1, 1);
+}
+
+KERNEL real2 gtr_A_by(gtr_shape g, real x, int count)
+{
+    real x2 = x*x;
+    real x4 = x2*x2;
+    real p0 = g.terms[count - 4];
+    real p1 = g.terms[count - 3];
+    real p2 = g.terms[count - 2];
+    real p3 = g.terms[count - 1];
+    UNROLL
+    for (int k = count - 8; k >= 0; k -= 4) {
+        p0 = g.terms[k] + x4*p0;
+        p1 = g.terms[k + 1] + x4*p1;
+        p2 = g.terms[k + 2] + x4*p2;
+        p3 = g.terms[k + 3] + x4*p3;
+    }
+    real slope = 0;
+    UNROLL
+    for (int k = count - 1; k > 0; k--) slope = k*g.terms[k] + x*slope;
+    real value = (p0 + x*p1) + x2*(p2 + x*p3);
+    real A = g.form == GTR_LOGARITHM ? value*value : kmax(value, 0);
+    return make2(A, slope*(g.form == GTR_LOGARITHM ? 2*value : (real)1));
+}
+#endif
+
+KERNEL real2 gtr_A(gtr_shape g, real x) { return gtr_A_by(g, x, GTR_TERMS); }
+
+/* dA/d(ln s) from dA/dx: x is linear in ln 1/s, or in 1/s. */
+KERNEL real gtr_A_slope(gtr_shape g, real slope, real inverse)
+{
+    return -g.scale*slope*(g.form == GTR_LOGARITHM ? (real)1 : inverse);
+}
+
+/* The polynomial's variable at a direction. */
+KERNEL real gtr_variable_at(real3 v, gtr_shape g)
+{
+    real3 w = gtr_unstretch_direction(g, v);
+    return gtr_variable(g, gtr_inverse_s(g, w.z*w.z, w.x*w.x + w.y*w.y));
+}
+
+/* The projected area of the microfacets that face v, cos (1 + Lambda); v.z > 0. */
+KERNEL real gtr_sigma_of(real3 v, gtr_shape g, real A)
+{
+    real3 w = gtr_unstretch_direction(g, v);
+    return 0.5f*(w.z + ksqrt(w.z*w.z + A*(w.x*w.x + w.y*w.y)));
+}
+
+KERNEL real gtr_sigma(real3 v, gtr_shape g) { return gtr_sigma_of(v, g, gtr_A(g, gtr_variable_at(v, g)).x); }

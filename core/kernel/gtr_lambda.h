@@ -118,7 +118,14 @@ static const gtr_direct_node gtr_direct_nodes[16] = {
  *     T = c/k0 Int s^(1 - gamma) (e - mu atan(e/mu)) dy,  y = ln s from ln s(mu^2) to 0,
  * with e^2 = r^2 - mu^2 = (mu^2 + alpha^2) (e^dy - 1)/(1 - s), dy from the lower end.  dy = Y sin^2/(1 + rho cos^2)
  * in the angle omega takes away the roots at both ends, and rho keeps the nodes where a large gamma puts the mass. */
-KERNEL real gtr_Lambda_direct(real alpha, real gamma, real mu)
+typedef struct gtr_direct {
+    real m;     /* mu, but not 0 and not infinite */
+    real ratio; /* (mu^2 + alpha^2)/mu^2 */
+    real Y, rho, excess;
+    real scale; /* of the sum over the nodes */
+} gtr_direct;
+
+KERNEL gtr_direct gtr_direct_at(real alpha, real gamma, real mu)
 {
     real a       = kmin(alpha, GTR_ROUGHEST);
     real k0      = (1 - a)*(1 + a);
@@ -129,28 +136,54 @@ KERNEL real gtr_Lambda_direct(real alpha, real gamma, real mu)
     real inverse = 1/(1 + m2);
     real rest    = k0*inverse;
     real s       = (m2 + a*a)*inverse;
-    real Y       = rest < 0.5f ? -klog1p(-rest) : -klog(s);
     real lift    = klog1p(m2*rest/(a*a));
-    real rho     = kmax(gamma - 1.5f, 0)*Y*GTR_DIRECT_STRETCH;
+    gtr_direct d;
+    d.m      = m;
+    d.ratio  = (m2 + a*a)/m2;
+    d.Y      = rest < 0.5f ? -klog1p(-rest) : -klog(s);
+    d.rho    = kmax(gamma - 1.5f, 0)*d.Y*GTR_DIRECT_STRETCH;
+    d.excess = excess;
+    d.scale  = excess/-kexpm1(-excess*L)*kexp(-excess*lift)*INV_PI*(1 + d.rho)/d.Y;
+    return d;
+}
+
+/* z = dy/sin^2 and e/mu at a node, and the node's term of the sum. */
+KERNEL real2 gtr_direct_node_at(gtr_direct d, gtr_direct_node n)
+{
+    real z    = d.Y/(1 + d.rho*n.cos2);
+    real left = -kexpm1_within(-z*(1 + d.rho)*n.cos2);
+    return make2(z, ksqrt(d.ratio*(kexpm1_within(z*n.sin2)/left)));
+}
+
+KERNEL real gtr_direct_term(gtr_direct d, gtr_direct_node n, real2 at)
+{
+    return n.weight*(at.x*at.x)*kexp(-d.excess*(at.x*n.sin2))*gtr_x_minus_atan(at.y);
+}
+
+KERNEL real gtr_direct_Lambda(gtr_direct d, real sum, real mu)
+{
+    real T = d.m*(d.scale*sum) + 0.5f*kmax(d.m - mu, 0);
+    return T/kmax(mu, COT_SMALLEST);
+}
+
+KERNEL real gtr_Lambda_direct(real alpha, real gamma, real mu)
+{
+    gtr_direct d = gtr_direct_at(alpha, gamma, mu);
     real sum     = 0;
     UNROLL
     for (int i = 0; i < 16; i++) {
         gtr_direct_node n = gtr_direct_nodes[i];
-        real z            = Y/(1 + rho*n.cos2);
-        real dy           = z*n.sin2;
-        real left         = -kexpm1(-z*(1 + rho)*n.cos2);
-        real x            = ksqrt((m2 + a*a)*(kexpm1(dy)/left))/m;
-        sum += n.weight*z*z*kexp(-excess*dy)*gtr_x_minus_atan(x);
+        sum += gtr_direct_term(d, n, gtr_direct_node_at(d, n));
     }
-    real c = excess/-kexpm1(-excess*L)*kexp(-excess*lift)*INV_PI;
-    real T = m*(c*(1 + rho)/Y*sum) + 0.5f*kmax(m - mu, 0);
-    return T/kmax(mu, COT_SMALLEST);
+    return gtr_direct_Lambda(d, sum, mu);
 }
 #endif
 
-/* Lambda_direct at v, of the shape's alpha and gamma. */
-KERNEL real gtr_Lambda_at(real3 v, gtr_shape g)
+/* The cotangent of a direction, after the unstretch, and Lambda_direct there, of the shape's alpha and gamma. */
+KERNEL real gtr_cot(real3 v, gtr_shape g)
 {
     real3 w = gtr_unstretch_direction(g, v);
-    return gtr_Lambda_direct(g.alpha, g.gamma, kabs(w.z)/kmax(ksqrt(w.x*w.x + w.y*w.y), REAL_MIN));
+    return kabs(w.z)/kmax(ksqrt(w.x*w.x + w.y*w.y), REAL_MIN);
 }
+
+KERNEL real gtr_Lambda_at(real3 v, gtr_shape g) { return gtr_Lambda_direct(g.alpha, g.gamma, gtr_cot(v, g)); }

@@ -17,6 +17,11 @@
 #define HIGH_HALF        UINT64_C(0xfffffffff8000000) /* keeps 26 of the 53 bits of a significand */
 #define ROUND_TO_INTEGER 6755399441055744.0           /* 1.5 * 2^52 */
 #define EXPONENT_BIAS    1023
+#define SCRAMBLE_SHIFT_1 30 /* of splitmix64 [steele14] */
+#define SCRAMBLE_SHIFT_2 27
+#define SCRAMBLE_SHIFT_3 31
+#define SCRAMBLE_TIMES_1 UINT64_C(0xbf58476d1ce4e5b9)
+#define SCRAMBLE_TIMES_2 UINT64_C(0x94d049bb133111eb)
 #else
 #define FRACTION_BITS    23
 #define SIGN_SHIFT       30
@@ -28,6 +33,11 @@
 #define HIGH_HALF        UINT32_C(0xfffff000) /* keeps 12 of the 24 bits */
 #define ROUND_TO_INTEGER 12582912.0f          /* 1.5 * 2^23 */
 #define EXPONENT_BIAS    127
+#define SCRAMBLE_SHIFT_1 16 /* of lowbias32 [wellons18] */
+#define SCRAMBLE_SHIFT_2 15
+#define SCRAMBLE_SHIFT_3 16
+#define SCRAMBLE_TIMES_1 UINT32_C(0x7feb352d)
+#define SCRAMBLE_TIMES_2 UINT32_C(0x846ca68b)
 #endif
 
 KERNEL real_bits bits_of(real x)
@@ -86,6 +96,20 @@ KERNEL real kfloor(real x)
 {
     real n = kround(x);
     return n > x ? n - 1.0f : n;
+}
+
+/* A permutation of all words that leaves no pattern of its argument to see, and a number uniform in (0, 1) from a
+ * word */
+KERNEL real_bits scramble(real_bits x)
+{
+    real_bits a = (x ^ (x >> SCRAMBLE_SHIFT_1))*SCRAMBLE_TIMES_1;
+    real_bits b = (a ^ (a >> SCRAMBLE_SHIFT_2))*SCRAMBLE_TIMES_2;
+    return b ^ (b >> SCRAMBLE_SHIFT_3);
+}
+
+KERNEL real uniform_of(real_bits x)
+{
+    return real_of((x >> (SIGN_SHIFT + 2 - FRACTION_BITS)) | ONE_BITS) - (1 - 0.5f*REAL_EPSILON);
 }
 
 /* x^2 and x^5, the power of Schlick's Fresnel term; (x^5: 2.0 / 2.0 ulp) */

@@ -32,18 +32,21 @@ KERNEL real kexp_neg_square(real x)
     return exp_of_sum(-x2.hi, -x2.lo);
 }
 
-/* e^x - 1 (1.6 / 2.0 ulp), -1 for x below -17.4 / -37.5, REAL_MAX from EXP_HIGHEST on; keeps the relative accuracy
- * near 0 */
-KERNEL real kexpm1(real x)
+/* e^x - 1 for |x| <= 40 (1.6 / 2.0 ulp); keeps the relative accuracy near 0, where 2^n = 1 and e is exactly m */
+KERNEL real kexpm1_within(real x)
 {
-    real a    = kclamp(x, -40.0f, EXP_HIGHEST);
-    real n    = kround(a*INV_LN_TWO);
-    real r    = (a - n*LN_TWO_HIGH) - n*LN_TWO_LOW;
+    real n    = kround(x*INV_LN_TWO);
+    real r    = (x - n*LN_TWO_HIGH) - n*LN_TWO_LOW;
     real m    = r + r*r*poly_exp(r); /* e^r - 1 */
     real half = two_to(n - 1.0f);    /* 2^n may exceed REAL_MAX */
-    real e    = 2.0f*(half*m + (half - 0.5f));
-    real top  = x >= EXP_HIGHEST ? REAL_MAX : e;
-    return n == 0.0f ? m : top;
+    return 2.0f*(half*m + (half - 0.5f));
+}
+
+/* The same for any x: -1 below -17.4 / -37.5, REAL_MAX from EXP_HIGHEST on */
+KERNEL real kexpm1(real x)
+{
+    real e = kexpm1_within(kclamp(x, -40.0f, EXP_HIGHEST));
+    return x >= EXP_HIGHEST ? REAL_MAX : e;
 }
 
 /* x = 2^n (1 + f), 1 + f in [sqrt(1/2), sqrt(2)); for normal x > 0 */
@@ -74,6 +77,24 @@ KERNEL real log_of_split(real_split x)
 /* ln x (0.9 / 0.9 ulp) for x >= REAL_MIN; whatever is smaller (0, negative, NaN) counts as REAL_MIN:
  * -87.34 / -708.4. */
 KERNEL real klog(real x) { return log_of_split(split_binary(kmax(x, REAL_MIN))); }
+
+/* ln x of a normal x >= 1 at half the cost of klog: off by 1 ulp and 7e-9 in float; klog in double.  With 1 + f as
+ * above, f - f^2/2 + f^3 q(f), the minimax polynomial q of (ln(1 + f) - f + f^2/2)/f^3. */
+KERNEL real klog_quick(real x)
+{
+#if FACET_REAL_IS_DOUBLE
+    return klog(x);
+#else
+    real_split s = split_binary(x);
+    real f       = s.f;
+    real f2      = f*f;
+    real q01     = 0.3333416577f - 0.2500169867f*f;
+    real q23     = 0.199548801f - 0.1656442918f*f;
+    real q45     = 0.1497795818f - 0.1437897461f*f;
+    real q       = q01 + f2*(q23 + f2*(q45 + f2*0.08672234455f));
+    return s.n*LN_TWO + (f + f2*(f*q - 0.5f));
+#endif
+}
 
 /* ln x of an x >= REAL_MIN whose difference from 1 is known better than x - 1 gives it; relative to the result (1.5
  * / 1.5 ulp). */

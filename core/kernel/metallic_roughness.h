@@ -62,20 +62,21 @@ KERNEL real metallic_roughness_base(metallic_roughness_params p, real cos_i, rea
     return p.diffuse == DIFFUSE_BURLEY ? burley : 1 - max_of3(F);
 }
 
-/* The distribution of normals: GGX, isotropic; what only others use stays unset. */
-KERNEL distribution metallic_roughness_distribution(metallic_roughness_params p)
+/* The specular term of isotropic GGX. */
+KERNEL specular_term metallic_roughness_specular(metallic_roughness_params p, real3 wi, real3 wo)
 {
-    distribution d;
-    d.kind    = NDF_GGX;
-    d.masking = MASKING_EXACT;
-    d.alpha_x = p.alpha;
-    d.alpha_y = p.alpha;
-    return d; /* cppcheck-suppress uninitvar */
+    smith_terms t;
+    t.D           = ggx_D(add3(wi, wo), p.alpha, p.alpha);
+    t.drawn_D     = t.D;
+    t.sigma_i     = ggx_sigma(wi, p.alpha, p.alpha);
+    t.sigma_o     = ggx_sigma(wo, p.alpha, p.alpha);
+    t.drawn_sigma = t.sigma_o;
+    return specular_at(t, G2_CORRELATED, wi, wo);
 }
 
 KERNEL real3 metallic_roughness_eval(metallic_roughness_params p, real3 wi, real3 wo)
 {
-    specular_term s = specular_at(metallic_roughness_distribution(p), G2_CORRELATED, wi, wo);
+    specular_term s = metallic_roughness_specular(p, wi, wo);
     real3 F         = fresnel_schlick(p.F0, p.F90, s.cos_d);
     real diffuse    = INV_PI*wi.z*metallic_roughness_base(p, wi.z, wo.z, s.cos_d, F);
     return select3(is_above(wi, wo), add3(scale3(diffuse, p.kd), scale3(specular_f(s, wi), F)), splat3(0));
@@ -83,10 +84,9 @@ KERNEL real3 metallic_roughness_eval(metallic_roughness_params p, real3 wi, real
 
 KERNEL real metallic_roughness_pdf(metallic_roughness_params p, real3 wi, real3 wo)
 {
-    distribution d  = metallic_roughness_distribution(p);
-    specular_term s = specular_at(d, G2_CORRELATED, wi, wo);
+    specular_term s = metallic_roughness_specular(p, wi, wo);
     real p_diffuse  = metallic_roughness_p_diffuse(p, wo);
-    real pdf        = p_diffuse*(INV_PI*wi.z) + (1 - p_diffuse)*specular_visible_pdf(d, s, wo);
+    real pdf        = p_diffuse*(INV_PI*wi.z) + (1 - p_diffuse)*specular_visible_pdf(s, 1);
     return keep_if(is_above(wi, wo), pdf);
 }
 

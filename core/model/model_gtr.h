@@ -72,6 +72,7 @@ static inline gtr_shape gtr_shape_of(real alpha_x, real alpha_y, real gamma, int
     for (int k = 0; k < GTR_TERMS; k++) g.terms[k] = (real)fit.terms[k];
 #endif
     g.form = fit.form;
+    g.count = fit.count;
     g.scale = (real)fit.scale;
     g.offset = (real)fit.offset;
     g.disney_peak = g.peak;

@@ -83,7 +83,7 @@ static inline fresnel prepare_fresnel(const facet_material *m)
 /* Everything but the distribution's own shape. */
 static inline microfacet_params microfacet_prepare(const facet_material *m, int kind)
 {
-    microfacet_params p = {.F = prepare_fresnel(m), .kd = prepare_colour(m, "kd")};
+    microfacet_params p = {.F = prepare_fresnel(m), .kd = prepare_colour(m, "kd"), .is_ggx = kind == NDF_GGX};
     p.d = (distribution){.kind = kind, .masking = prepare_choice(m, "masking"), .alpha_x = 1, .alpha_y = 1};
     p.g2 = prepare_choice(m, "g2");
     p.sampling = prepare_choice(m, "sampling");
