@@ -89,13 +89,11 @@ static __attribute__((noinline)) void gtr_lane_terms(const lane_block *b, facet_
         {                                                                                                              \
             const microfacet_params q = params_of_lane(common, kind, b, i);                                            \
             const real3 to_light = gather(wi, i), to_viewer = gather(wo, i);                                           \
-            const smith_terms terms = LANE_TERMS(kind);                                                                \
-            const real3 v = microfacet_eval_with(q, terms, to_light, to_viewer);                                       \
-            const real density = microfacet_pdf_with(q, terms, to_light, to_viewer);                                   \
-            red[i] = v.x;                                                                                              \
-            green[i] = v.y;                                                                                            \
-            blue[i] = v.z;                                                                                             \
-            out[i] = density;                                                                                          \
+            const bsdf_value both = microfacet_eval_pdf_with(q, LANE_TERMS(kind), to_light, to_viewer);                \
+            red[i] = both.f.x;                                                                                         \
+            green[i] = both.f.y;                                                                                       \
+            blue[i] = both.f.z;                                                                                        \
+            out[i] = both.pdf;                                                                                         \
         }                                                                                                              \
     }                                                                                                                  \
     static void name##_lanes_sample(const prepared *p, const lane_block *b, facet_dirs wo, facet_dirs u,               \

@@ -66,13 +66,11 @@ KERNEL void microfacet_eval_pdf_staged(const microfacet_params *given, int varia
         float *restrict const out = pdf + first;
         _Pragma("omp simd") for (size_t i = 0; i < some; i++)
         {
-            const real3 to_light = gather(i_dirs, i), to_viewer = gather(o_dirs, i);
-            const real3 value = microfacet_eval_with(p, terms_of(&t, i), to_light, to_viewer);
-            const real density = microfacet_pdf_with(p, terms_of(&t, i), to_light, to_viewer);
-            r[i] = value.x;
-            g[i] = value.y;
-            b[i] = value.z;
-            out[i] = density;
+            const bsdf_value both = microfacet_eval_pdf_with(p, terms_of(&t, i), gather(i_dirs, i), gather(o_dirs, i));
+            r[i] = both.f.x;
+            g[i] = both.f.y;
+            b[i] = both.f.z;
+            out[i] = both.pdf;
         }
     }
 }

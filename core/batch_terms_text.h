@@ -150,14 +150,14 @@ static void gtr_A_block(const gtr_shape *shape, size_t n, const float *x, float 
     if (derivative) {
         EACH_OF(n)
         {
-            const real2 at = gtr_A(g, x[i]);
+            const real2 at = gtr_A_and_slope(g, x[i]);
             out[i] = at.x;
             derivative[i] = at.y;
         }
-    } else if (g.count <= 8) EACH_OF(n) out[i] = gtr_A_by(g, x[i], 8).x;
-    else if (g.count <= 12) EACH_OF(n) out[i] = gtr_A_by(g, x[i], 12).x;
-    else if (g.count <= 16) EACH_OF(n) out[i] = gtr_A_by(g, x[i], 16).x;
-    else EACH_OF(n) out[i] = gtr_A_by(g, x[i], GTR_TERMS).x;
+    } else if (g.count <= 8) EACH_OF(n) out[i] = gtr_A_by(g, x[i], 8);
+    else if (g.count <= 12) EACH_OF(n) out[i] = gtr_A_by(g, x[i], 12);
+    else if (g.count <= 16) EACH_OF(n) out[i] = gtr_A_by(g, x[i], 16);
+    else EACH_OF(n) out[i] = gtr_A(g, x[i]);
 }
 
 /* gtr_A towards each direction. */

@@ -43,13 +43,11 @@ _Static_assert((int)KERNEL_COUNT <= BATCH_KERNELS, "batch.h has room for every k
         float *restrict const r = f.r, *restrict const g = f.g, *restrict const b = f.b, *restrict const out = pdf;    \
         _Pragma("omp simd") for (size_t i = 0; i < n; i++)                                                             \
         {                                                                                                              \
-            const real3 to_light = gather(wi, i), to_viewer = gather(wo, i);                                           \
-            const real3 value = name##_eval(p, to_light, to_viewer);                                                   \
-            const real density = name##_pdf(p, to_light, to_viewer);                                                   \
-            r[i] = value.x;                                                                                            \
-            g[i] = value.y;                                                                                            \
-            b[i] = value.z;                                                                                            \
-            out[i] = density;                                                                                          \
+            const bsdf_value both = name##_eval_pdf(p, gather(wi, i), gather(wo, i));                                  \
+            r[i] = both.f.x;                                                                                           \
+            g[i] = both.f.y;                                                                                           \
+            b[i] = both.f.z;                                                                                           \
+            out[i] = both.pdf;                                                                                         \
         }                                                                                                              \
     }                                                                                                                  \
     KERNEL void name##_sample_each(const name##_params *given, int variant, size_t n, facet_dirs wo, facet_dirs u,     \

@@ -62,55 +62,56 @@ facet_status NAME(prepare)(const facet_material *material, STORAGE *bsdf, facet_
     return FACET_OK;
 }
 
-/* One function per kernel and verb, which runs the code of the material's variant. */
-#define VERB_ROWS(name)                                                                                                \
-    static real3 name##_eval_any(const prepared *p, real3 wi, real3 wo)                                                \
+/* One function per variant and verb: a large one for all would keep nothing in registers. */
+#define VARIANT_VERBS(name, v)                                                                                         \
+    static __attribute__((noinline)) void name##_eval_##v(const prepared *p, const real wi[3], const real wo[3],       \
+                                                          real f[3])                                                   \
     {                                                                                                                  \
-        switch (p->variant) {                                                                                          \
-            EACH_VARIANT_##name(EVAL_CASE, name)                                                                       \
-        }                                                                                                              \
-        return splat3(0);                                                                                              \
+        store3(f, name##_eval(name##_fix(p->of.name, v), load3(wi), load3(wo)));                                       \
     }                                                                                                                  \
-    static real name##_pdf_any(const prepared *p, real3 wi, real3 wo)                                                  \
+    static __attribute__((noinline)) real name##_pdf_##v(const prepared *p, const real wi[3], const real wo[3])        \
     {                                                                                                                  \
-        switch (p->variant) {                                                                                          \
-            EACH_VARIANT_##name(PDF_CASE, name)                                                                        \
-        }                                                                                                              \
-        return 0;                                                                                                      \
+        return name##_pdf(name##_fix(p->of.name, v), load3(wi), load3(wo));                                            \
     }                                                                                                                  \
-    static real3 name##_eval_pdf_any(const prepared *p, real3 wi, real3 wo, real *pdf)                                 \
+    static __attribute__((noinline))                                                                                   \
+    real name##_eval_pdf_##v(const prepared *p, const real wi[3], const real wo[3], real f[3])                         \
     {                                                                                                                  \
-        switch (p->variant) {                                                                                          \
-            EACH_VARIANT_##name(EVAL_PDF_CASE, name)                                                                   \
-        }                                                                                                              \
-        return splat3(0);                                                                                              \
+        const bsdf_value both = name##_eval_pdf(name##_fix(p->of.name, v), load3(wi), load3(wo));                      \
+        store3(f, both.f);                                                                                             \
+        return both.pdf;                                                                                               \
     }                                                                                                                  \
-    static bsdf_sample name##_sample_any(const prepared *p, real3 wo, real3 u)                                         \
+    static __attribute__((noinline)) SAMPLE name##_sample_##v(const prepared *p, const real wo[3], const real u[3])    \
     {                                                                                                                  \
-        switch (p->variant) {                                                                                          \
-            EACH_VARIANT_##name(SAMPLE_CASE, name)                                                                     \
-        }                                                                                                              \
-        return (bsdf_sample){.pdf = 0};                                                                                \
+        return public_sample(name##_sample(name##_fix(p->of.name, v), load3(wo), load3(u)));                           \
     }
-
 #define EVAL_CASE(name, v)                                                                                             \
     case v: {                                                                                                          \
-        return name##_eval(name##_fix(p->of.name, v), wi, wo);                                                         \
+        name##_eval_##v(p, wi, wo, f);                                                                                 \
+        break;                                                                                                         \
     }
 #define PDF_CASE(name, v)                                                                                              \
     case v: {                                                                                                          \
-        return name##_pdf(name##_fix(p->of.name, v), wi, wo);                                                          \
+        return name##_pdf_##v(p, wi, wo);                                                                              \
     }
 #define EVAL_PDF_CASE(name, v)                                                                                         \
     case v: {                                                                                                          \
-        const real3 f = name##_eval(name##_fix(p->of.name, v), wi, wo);                                                \
-        *pdf = name##_pdf(name##_fix(p->of.name, v), wi, wo);                                                          \
-        return f;                                                                                                      \
+        return name##_eval_pdf_##v(p, wi, wo, f);                                                                      \
     }
 #define SAMPLE_CASE(name, v)                                                                                           \
     case v: {                                                                                                          \
-        return name##_sample(name##_fix(p->of.name, v), wo, u);                                                        \
+        return name##_sample_##v(p, wo, u);                                                                            \
     }
+#define VERB_ROWS(name) EACH_VARIANT_##name(VARIANT_VERBS, name)
+
+static SAMPLE public_sample(bsdf_sample s)
+{
+    return (SAMPLE){.wi = {s.wi.x, s.wi.y, s.wi.z},
+                    .pdf = s.pdf,
+                    .weight = {s.weight.x, s.weight.y, s.weight.z},
+                    .lobe = s.lobe,
+                    .eta = s.eta};
+}
+
 FACET_KERNELS(VERB_ROWS)
 
 void NAME(eval)(const STORAGE *bsdf, const real wi[3], const real wo[3], real f[3])
@@ -118,7 +119,11 @@ void NAME(eval)(const STORAGE *bsdf, const real wi[3], const real wo[3], real f[
     const prepared *p = content(bsdf);
     switch (p->kernel) {
 #define EVAL_ROW(name)                                                                                                 \
-    case KERNEL_##name: store3(f, name##_eval_any(p, load3(wi), load3(wo))); break;
+    case KERNEL_##name:                                                                                                \
+        switch (p->variant) {                                                                                          \
+            EACH_VARIANT_##name(EVAL_CASE, name)                                                                       \
+        }                                                                                                              \
+        break;
         FACET_KERNELS(EVAL_ROW)
     }
 }
@@ -128,7 +133,11 @@ real NAME(pdf)(const STORAGE *bsdf, const real wi[3], const real wo[3])
     const prepared *p = content(bsdf);
     switch (p->kernel) {
 #define PDF_ROW(name)                                                                                                  \
-    case KERNEL_##name: return name##_pdf_any(p, load3(wi), load3(wo));
+    case KERNEL_##name:                                                                                                \
+        switch (p->variant) {                                                                                          \
+            EACH_VARIANT_##name(PDF_CASE, name)                                                                        \
+        }                                                                                                              \
+        break;
         FACET_KERNELS(PDF_ROW)
     }
     return 0;
@@ -137,29 +146,31 @@ real NAME(pdf)(const STORAGE *bsdf, const real wi[3], const real wo[3])
 real NAME(eval_pdf)(const STORAGE *bsdf, const real wi[3], const real wo[3], real f[3])
 {
     const prepared *p = content(bsdf);
-    real pdf = 0;
     switch (p->kernel) {
 #define EVAL_PDF_ROW(name)                                                                                             \
-    case KERNEL_##name: store3(f, name##_eval_pdf_any(p, load3(wi), load3(wo), &pdf)); break;
+    case KERNEL_##name:                                                                                                \
+        switch (p->variant) {                                                                                          \
+            EACH_VARIANT_##name(EVAL_PDF_CASE, name)                                                                   \
+        }                                                                                                              \
+        break;
         FACET_KERNELS(EVAL_PDF_ROW)
     }
-    return pdf;
+    return 0;
 }
 
 SAMPLE NAME(sample)(const STORAGE *bsdf, const real wo[3], const real u[3])
 {
     const prepared *p = content(bsdf);
-    bsdf_sample s = {.pdf = 0};
     switch (p->kernel) {
 #define SAMPLE_ROW(name)                                                                                               \
-    case KERNEL_##name: s = name##_sample_any(p, load3(wo), load3(u)); break;
+    case KERNEL_##name:                                                                                                \
+        switch (p->variant) {                                                                                          \
+            EACH_VARIANT_##name(SAMPLE_CASE, name)                                                                     \
+        }                                                                                                              \
+        break;
         FACET_KERNELS(SAMPLE_ROW)
     }
-    return (SAMPLE){.wi = {s.wi.x, s.wi.y, s.wi.z},
-                    .pdf = s.pdf,
-                    .weight = {s.weight.x, s.weight.y, s.weight.z},
-                    .lobe = s.lobe,
-                    .eta = s.eta};
+    return (SAMPLE){.pdf = 0};
 }
 
 TERMS NAME(terms)(const STORAGE *bsdf, const real m[3])

@@ -1,7 +1,8 @@
 /* model_table.h: the kernels and the models, one row each.
  *
- * A kernel file core/kernel/NAME.h defines, beside its formulas, NAME_params, NAME_eval, NAME_pdf, NAME_sample,
- * NAME_lobes and NAME_terms.  Where settings that are the same for a whole material choose between formulas, the code
+ * A kernel file core/kernel/NAME.h defines, beside its formulas, NAME_params, NAME_eval, NAME_pdf,
+ * NAME_eval_pdf, NAME_sample, NAME_lobes and NAME_terms.  Where settings that are the same for a whole material
+ * choose between formulas, the code
  * is compiled once for each VARIANT of the settings, so that a batch never chooses per element: NAME_variant gives the
  * variant of prepared parameters, NAME_fix sets the fields that are constant in a variant to those constants, and
  * EACH_VARIANT_NAME(CASE, NAME) is CASE(NAME, v) for each variant v.

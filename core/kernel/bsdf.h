@@ -24,6 +24,12 @@ typedef struct bsdf_sample {
     real eta; /* index of refraction on wi's side over that on wo's; 1 unless the sample refracts */
 } bsdf_sample;
 
+/* f cos_i and the density of wi. */
+typedef struct bsdf_value {
+    real3 f;
+    real pdf;
+} bsdf_value;
+
 /* (wi + wo)/|wi + wo|; the normal where the two cancel. */
 KERNEL real3 half_vector(real3 wi, real3 wo)
 {
@@ -61,6 +67,16 @@ KERNEL bsdf_sample complete_sample(real3 wi, real3 weight, real pdf, int is_vali
     s.eta    = 1;
     return s;
 }
+
+/* NAME_eval_pdf of a kernel whose eval and pdf share nothing that the compiler cannot see. */
+#define EVAL_AND_PDF(name)                                                                                             \
+    KERNEL bsdf_value name##_eval_pdf(name##_params p, real3 wi, real3 wo)                                             \
+    {                                                                                                                  \
+        bsdf_value both;                                                                                               \
+        both.f   = name##_eval(p, wi, wo);                                                                             \
+        both.pdf = name##_pdf(p, wi, wo);                                                                              \
+        return both;                                                                                                   \
+    }
 
 /* What model_table.h asks for, of a kernel whose settings choose nothing. */
 #define ONE_VARIANT(name)                                                                                              \

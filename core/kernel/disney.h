@@ -265,4 +265,6 @@ KERNEL disney_params disney_fix(disney_params p, int variant)
     return q;
 }
 
+EVAL_AND_PDF(disney)
+
 #define EACH_VARIANT_disney(CASE, name) CASE(name, 0) CASE(name, 1) CASE(name, 2) CASE(name, 3)

@@ -80,5 +80,6 @@ KERNEL real3 glass_terms(glass_params p, real3 m)
     return splat3(0);
 }
 
+EVAL_AND_PDF(glass)
 ONE_VARIANT(glass)
 #define EACH_VARIANT_glass(CASE, name) CASE(name, 0)

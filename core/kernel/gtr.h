@@ -94,8 +94,8 @@ KERNEL real gtr_inverse_s(gtr_shape g, real cos2, real sin2)
     return (cos2 + sin2)/(cos2 + g.alpha*g.alpha*sin2);
 }
 
-/* The polynomial's variable at 1/s, and A there with its derivative by the variable, which is left out where it is not
- * used.  count: at least g.count; the further terms are 0. */
+/* The polynomial's variable at 1/s; A there, and with its derivative by the variable.  count: at least g.count; the
+ * further terms are 0. */
 #if FACET_REAL_IS_DOUBLE
 /* In double A takes several polynomials; it is not evaluated in vectors, where looking one up would cost. */
 KERNEL real gtr_variable(gtr_shape g, real inverse)
@@ -103,49 +103,63 @@ KERNEL real gtr_variable(gtr_shape g, real inverse)
     return kclamp(g.scale*klog(inverse) + g.offset, 0, GTR_PIECES);
 }
 
-KERNEL real2 gtr_A_by(gtr_shape g, real x, int count)
+KERNEL real2 gtr_A_and_slope(gtr_shape g, real x)
 {
     int piece  = (int)kmin(kfloor(x), GTR_PIECES - 1);
     real local = 2*(x - piece) - 1;
     real A     = 0;
     real slope = 0;
-    for (int k = count - 1; k >= 0; k--) {
+    for (int k = GTR_TERMS - 1; k >= 0; k--) {
         slope = A + local*slope;
         A     = g.terms[piece][k] + local*A;
     }
     return make2(kmax(A, 0), 2*slope);
 }
+
+KERNEL real gtr_A(gtr_shape g, real x) { return gtr_A_and_slope(g, x).x; }
 #else
 KERNEL real gtr_variable(gtr_shape g, real inverse)
 {
     return kclamp(g.scale*(g.form == GTR_LOGARITHM ? klog_quick(inverse) : inverse) + g.offset, -1, 1);
 }
 
-KERNEL real2 gtr_A_by(gtr_shape g, real x, int count)
+/* Every fourth term, as a polynomial of x^4. */
+KERNEL real gtr_fourths(real t0, real t4, real t8, real t12, real t16, real x4, int count)
+{
+    real p12 = count > 16 ? t12 + x4*t16 : t12;
+    real p8 = count > 12 ? t8 + x4*p12 : t8;
+    real p4 = count > 8 ? t4 + x4*p8 : t4;
+    return t0 + x4*p4;
+}
+
+/* sqrt(A) or A, by the form. */
+KERNEL real gtr_polynomial(gtr_shape g, real x, int count)
 {
     real x2 = x*x;
     real x4 = x2*x2;
-    real p0 = g.terms[count - 4];
-    real p1 = g.terms[count - 3];
-    real p2 = g.terms[count - 2];
-    real p3 = g.terms[count - 1];
-    UNROLL
-    for (int k = count - 8; k >= 0; k -= 4) {
-        p0 = g.terms[k] + x4*p0;
-        p1 = g.terms[k + 1] + x4*p1;
-        p2 = g.terms[k + 2] + x4*p2;
-        p3 = g.terms[k + 3] + x4*p3;
-    }
+    real p0 = gtr_fourths(g.terms[0], g.terms[4], g.terms[8], g.terms[12], g.terms[16], x4, count);
+    real p1 = gtr_fourths(g.terms[1], g.terms[5], g.terms[9], g.terms[13], g.terms[17], x4, count);
+    real p2 = gtr_fourths(g.terms[2], g.terms[6], g.terms[10], g.terms[14], g.terms[18], x4, count);
+    real p3 = gtr_fourths(g.terms[3], g.terms[7], g.terms[11], g.terms[15], g.terms[19], x4, count);
+    return (p0 + x*p1) + x2*(p2 + x*p3);
+}
+
+KERNEL real gtr_A_by(gtr_shape g, real x, int count)
+{
+    real value = gtr_polynomial(g, x, count);
+    return g.form == GTR_LOGARITHM ? value*value : kmax(value, 0);
+}
+
+KERNEL real gtr_A(gtr_shape g, real x) { return gtr_A_by(g, x, GTR_TERMS); }
+
+KERNEL real2 gtr_A_and_slope(gtr_shape g, real x)
+{
     real slope = 0;
     UNROLL
-    for (int k = count - 1; k > 0; k--) slope = k*g.terms[k] + x*slope;
-    real value = (p0 + x*p1) + x2*(p2 + x*p3);
-    real A = g.form == GTR_LOGARITHM ? value*value : kmax(value, 0);
-    return make2(A, slope*(g.form == GTR_LOGARITHM ? 2*value : (real)1));
+    for (int k = GTR_TERMS - 1; k > 0; k--) slope = k*g.terms[k] + x*slope;
+    return make2(gtr_A(g, x), slope*(g.form == GTR_LOGARITHM ? 2*gtr_polynomial(g, x, GTR_TERMS) : (real)1));
 }
 #endif
-
-KERNEL real2 gtr_A(gtr_shape g, real x) { return gtr_A_by(g, x, GTR_TERMS); }
 
 /* dA/d(ln s) from dA/dx: x is linear in ln 1/s, or in 1/s. */
 KERNEL real gtr_A_slope(gtr_shape g, real slope, real inverse)
@@ -167,4 +181,4 @@ KERNEL real gtr_sigma_of(real3 v, gtr_shape g, real A)
     return 0.5f*(w.z + ksqrt(w.z*w.z + A*(w.x*w.x + w.y*w.y)));
 }
 
-KERNEL real gtr_sigma(real3 v, gtr_shape g) { return gtr_sigma_of(v, g, gtr_A(g, gtr_variable_at(v, g)).x); }
+KERNEL real gtr_sigma(real3 v, gtr_shape g) { return gtr_sigma_of(v, g, gtr_A(g, gtr_variable_at(v, g))); }

@@ -86,7 +86,7 @@ KERNEL real3 gtr_sample_ndf(real ux, real uy, gtr_shape g)
 
 /* The slope q >= lowest of the line beyond which T(q) = tau: a guess, and a step of Newton's method from q, where
  * S = -T'(q) is the probability of a slope beyond it;
- * A: gtr_A there. */
+ * A: gtr_A_and_slope there. */
 KERNEL real gtr_line_guess(gtr_shape g, real tau, real lowest)
 {
     real x    = g.guess_scale*klog(g.T0/tau) - 1;
@@ -160,7 +160,7 @@ KERNEL real gtr_draw_line(gtr_shape g, real mu, real tau)
     real q = gtr_line_guess(g, tau, mu);
     UNROLL
     for (int k = 0; k < GTR_LINE_STEPS; k++)
-        q = gtr_line_step(g, tau, mu, q, gtr_A(g, gtr_variable(g, gtr_inverse_s(g, q*q, 1))));
+        q = gtr_line_step(g, tau, mu, q, gtr_A_and_slope(g, gtr_variable(g, gtr_inverse_s(g, q*q, 1))));
     return q;
 }
 
@@ -195,7 +195,7 @@ KERNEL real3 gtr_sample_tail(gtr_view v, real3 u, gtr_shape g)
  * much as the body and is rare; batches draw it apart (batch_microfacet_text.h). */
 KERNEL real3 gtr_sample_vndf(real3 wo, real ux, real uy, real uz, gtr_shape g)
 {
-    gtr_view v = gtr_view_of(wo, g, gtr_A(g, gtr_variable_at(wo, g)).x);
+    gtr_view v = gtr_view_of(wo, g, gtr_A(g, gtr_variable_at(wo, g)));
     real rest  = gtr_rest_of(v, ux);
     return gtr_is_tail(v, ux)
                ? gtr_sample_tail(v, make3(rest, uy, uz), g)

@@ -50,5 +50,6 @@ KERNEL real3 lambert_terms(lambert_params p, real3 m)
     return splat3(0);
 }
 
+EVAL_AND_PDF(lambert)
 ONE_VARIANT(lambert)
 #define EACH_VARIANT_lambert(CASE, name) CASE(name, 0)

@@ -114,5 +114,6 @@ KERNEL real3 metallic_roughness_terms(metallic_roughness_params p, real3 m)
     return make3(ggx_D(m, p.alpha, p.alpha), Lambda, m.z > 0 ? 1/(1 + Lambda) : (real)0);
 }
 
+EVAL_AND_PDF(metallic_roughness)
 ONE_VARIANT(metallic_roughness)
 #define EACH_VARIANT_metallic_roughness(CASE, name) CASE(name, 0)

@@ -179,6 +179,19 @@ KERNEL real microfacet_pdf(microfacet_params p, real3 wi, real3 wo)
     return microfacet_pdf_with(p, microfacet_terms_at(p, wi, wo), wi, wo);
 }
 
+KERNEL bsdf_value microfacet_eval_pdf_with(microfacet_params p, smith_terms t, real3 wi, real3 wo)
+{
+    bsdf_value both;
+    both.f   = microfacet_eval_with(p, t, wi, wo);
+    both.pdf = microfacet_pdf_with(p, t, wi, wo);
+    return both;
+}
+
+KERNEL bsdf_value microfacet_eval_pdf(microfacet_params p, real3 wi, real3 wo)
+{
+    return microfacet_eval_pdf_with(p, microfacet_terms_at(p, wi, wo), wi, wo);
+}
+
 /* A sample is made in three steps, which batches take one after the other: a normal, a direction, and its weight and
  * density with the terms of both. */
 KERNEL real3 microfacet_sample_normal(microfacet_params p, real3 wo, real3 u)
@@ -226,11 +239,11 @@ KERNEL bsdf_sample microfacet_complete_mirrored(microfacet_params p, smith_terms
 /* Several: the weight is eval/pdf of the mixture. */
 KERNEL bsdf_sample microfacet_complete_mixture(microfacet_params p, smith_terms t, real3 wi, real3 wo, real3 u, real3 m)
 {
-    int is_diffuse = u.z < p.p_diffuse;
-    real pdf       = microfacet_pdf_with(p, t, wi, wo);
-    int is_valid   = (pdf > REAL_MIN) & (is_diffuse | microfacet_chooses_multi(p, wo, u) | (dot3(wo, m) > 0));
-    real inv       = 1/(is_valid ? pdf : (real)1);
-    return complete_sample(wi, scale3(inv, microfacet_eval_with(p, t, wi, wo)), pdf, is_valid,
+    int is_diffuse  = u.z < p.p_diffuse;
+    bsdf_value both = microfacet_eval_pdf_with(p, t, wi, wo);
+    int is_valid    = (both.pdf > REAL_MIN) & (is_diffuse | microfacet_chooses_multi(p, wo, u) | (dot3(wo, m) > 0));
+    real inv        = 1/(is_valid ? both.pdf : (real)1);
+    return complete_sample(wi, scale3(inv, both.f), both.pdf, is_valid,
                            LOBE_REFLECTION | (is_diffuse ? LOBE_DIFFUSE : LOBE_GLOSSY));
 }
 

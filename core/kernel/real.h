@@ -21,19 +21,22 @@
 #define KERNEL static inline __attribute__((unused))
 #endif
 
-/* In files of loops over batches (batch_text.h sets FACET_LOOPS) a large kernel is inlined too, and its loops of
- * constant length are unrolled: left as loops, they keep the one around from vectorising.  Elsewhere one copy will do.
- */
+/* In files of loops over batches (batch_text.h sets FACET_LOOPS) a large kernel is inlined too; elsewhere one copy will
+ * do. */
 #ifdef FACET_LOOPS
 #define LARGE_KERNEL KERNEL
-#if defined(__clang__)
+#else
+#define LARGE_KERNEL static __attribute__((unused, noinline))
+#endif
+
+/* Before a loop of constant length, which is unrolled: left as a loop, it keeps the one around from vectorising, and
+ * the arrays that it reads from registers. */
+#if !defined(__OPTIMIZE__)
+#define UNROLL
+#elif defined(__clang__)
 #define UNROLL _Pragma("clang loop unroll(full)")
 #else
 #define UNROLL _Pragma("GCC unroll 127")
-#endif
-#else
-#define LARGE_KERNEL static __attribute__((unused, noinline))
-#define UNROLL
 #endif
 
 #if FACET_REAL_IS_DOUBLE

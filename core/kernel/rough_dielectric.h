@@ -236,6 +236,8 @@ KERNEL rough_dielectric_params rough_dielectric_fix(rough_dielectric_params p, i
     return q;
 }
 
+EVAL_AND_PDF(rough_dielectric)
+
 /* Of ggx, beckmann, phong and gtr. */
 #define EACH_VARIANT_rough_dielectric(CASE, name)                                                                      \
     CASE(name, 0)                                                                                                      \

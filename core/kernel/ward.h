@@ -128,4 +128,6 @@ KERNEL ward_params ward_fix(ward_params p, int variant)
     q.variant     = variant;
     return q;
 }
+EVAL_AND_PDF(ward)
+
 #define EACH_VARIANT_ward(CASE, name) CASE(name, 0) CASE(name, 1) CASE(name, 2)

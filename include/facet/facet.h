@@ -231,7 +231,8 @@ typedef struct facet_samples {
     float *wi_x, *wi_y, *wi_z, *pdf, *weight_r, *weight_g, *weight_b;
 } facet_samples;
 
-/* facet_bsdf_eval, _pdf, _eval_pdf and _sample for n elements: the same bits, whatever the instruction set. */
+/* facet_bsdf_eval, _pdf, _eval_pdf and _sample for n elements: the same bits, whatever the instruction set.  Up to
+ * 128 KiB of stack. */
 FACET_API void facet_bsdf_eval_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f);
 FACET_API void facet_bsdf_pdf_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wi, facet_dirs wo, float *pdf);
 FACET_API void facet_bsdf_eval_pdf_batch(const facet_bsdf *bsdf, size_t n, facet_dirs wi, facet_dirs wo, facet_rgb f,

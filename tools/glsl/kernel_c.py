@@ -23,8 +23,8 @@ DIRECTIVE = re.compile(r"^[ \t]*#[ \t]*(\w+)((?:\\\n|[^\n])*)", re.M)
 DEFINED = {"FACET_REAL_IS_DOUBLE": "0"}
 # Macros that are words of the kernels' language and have no value.
 MARKS = ("KERNEL", "LARGE_KERNEL", "UNROLL", "FACET_REAL_IS_DOUBLE")
-# How the C is compiled into loops, which a shader has none of: ONE_VARIANT(name).
-LOOPS_ONLY = ("ONE_VARIANT",)
+# How the C is compiled into loops, which a shader has none of: ONE_VARIANT(name), EVAL_AND_PDF(name).
+LOOPS_ONLY = ("ONE_VARIANT", "EVAL_AND_PDF")
 # Macros of the C library.
 LIBRARY = {"FLT_MAX": "3.40282347e+38f", "FLT_MIN": "1.17549435e-38f", "FLT_EPSILON": "1.1920929e-07f",
            "FACET_REAL_IS_DOUBLE": "0"}
