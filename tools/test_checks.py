@@ -23,6 +23,7 @@ import check_text
 import format as layout
 import make_metals
 import make_model_pages
+import mutate
 
 SPDX = "/* SPDX-License-Identifier: MIT */\n"
 
@@ -378,6 +379,39 @@ class ModelPages(CheckTest):
         kept = make_model_pages.thinned(points, 0.2)
         self.assertIn(points[7], kept)
         self.assertLess(len(kept), 8)
+
+
+class Mutations(unittest.TestCase):
+    def changed(self, code, kind, name="a.h"):
+        return [code[:start] + new + code[end:] for k, start, end, new in mutate.mutations_of(name, code) if k == kind]
+
+    def test_numbers(self):
+        self.assertEqual(self.changed("x = 0.5f + c1;", "number"), ["x = 0.53125f + c1;"])
+        self.assertEqual(self.changed("x = 1e-16;", "sign"), ["x = (-1e-16);"])
+        self.assertEqual(self.changed("f(0, 0x3f80u);", "number"), ["f(1, 0x3f80u);", "f(0, 0x3f81u);"])
+        self.assertEqual(self.changed("x = 2.0f;", "number", mutate.TABLES[0]), ["x = 2.0019999999999998f;"])
+
+    def test_operators_with_two_operands_only(self):
+        self.assertEqual(self.changed("x = -a + (real)-b; i++; p->q; x += 1e-5;", "operator"),
+                         ["x = -a - (real)-b; i++; p->q; x += 1e-5;", "x = -a + (real)-b; i++; p->q; x -= 1e-5;"])
+        self.assertEqual(self.changed("return -a;", "operator"), [])
+        self.assertEqual(self.changed("x = a <= b | c << 1;", "operator"), ["x = a >= b | c << 1;"])
+        self.assertEqual(self.changed("KERNEL real kmax(real a)\nx = kmin(a, 0);", "operator"),
+                         ["KERNEL real kmax(real a)\nx = kmax(a, 0);"])
+
+    def test_factors(self):
+        self.assertEqual(self.changed("x = a*(b + c)*f(d).x*(real)0.5;", "factor"),
+                         ["x = a*f(d).x*(real)0.5;", "x = a*(b + c)*(real)0.5;", "x = a*(b + c)*f(d).x;"])
+
+    def test_arms(self):
+        self.assertEqual(self.changed("x = f(a ? b : c, d);", "arms"), ["x = f(a ? c : b, d);"])
+        self.assertEqual(self.changed("x = a ? (b ? c : d) : e;", "arms"),
+                         ["x = a ? e : (b ? c : d);", "x = a ? (b ? d : c) : e;"])
+
+    def test_code_only(self):
+        text = '/* 1 + 2 */\n#if 3 > 2\n#include "a2*b.h"\n#define F(x) \\\n    (x*2)\n#endif\n'
+        self.assertEqual(list(mutate.mutations_of("a.h", text)), [])
+        self.assertEqual(self.changed("#define A (b*2) /* 3 */\n", "number"), ["#define A (b*3) /* 3 */\n"])
 
 
 if __name__ == "__main__":
