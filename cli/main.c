@@ -11,7 +11,7 @@
 
 static const command *const commands[] = {
     &render_command, &compare_command,   &eval_command,   &sample_command, &terms_command,
-    &albedo_command, &materials_command, &scenes_command, &info_command,
+    &albedo_command, &verify_command, &materials_command, &scenes_command, &info_command,
 };
 enum { N_COMMANDS = sizeof commands/sizeof *commands };
 

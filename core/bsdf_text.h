@@ -185,6 +185,17 @@ TERMS NAME(terms)(const STORAGE *bsdf, const real m[3])
     return (TERMS){.D = t.x, .Lambda = t.y, .G1 = t.z};
 }
 
+real NAME(D)(const STORAGE *bsdf, const real m[3])
+{
+    const prepared *p = content(bsdf);
+    switch (p->kernel) {
+#define D_ROW(name)                                                                                                    \
+    case KERNEL_##name: return name##_terms(p->of.name, load3(m)).x; /* the rest is not computed */
+        FACET_KERNELS(D_ROW)
+    }
+    return 0;
+}
+
 int NAME(lobes)(const STORAGE *bsdf)
 {
     const prepared *p = content(bsdf);

@@ -189,9 +189,8 @@ static inline void cosines(int n, double *wave)
  * 4.  wave: cosines of n. */
 static inline int interpolate(int n, const double *wave, const double *value, double tolerance, double *terms)
 {
-    double c[POINTS]; /* of Chebyshev's polynomials T_k, which are even or odd */
+    double c[POINTS] = {0}; /* of Chebyshev's polynomials T_k, which are even or odd */
     for (int k = 0; k < n; k++) {
-        c[k] = 0;
         for (int j = 0, at = k; j < n/2; j++) { /* at = k (2 j + 1) modulo 4 n */
             const double mirrored = value[n - 1 - j];
             c[k] += (value[j] + (k%2 ? -mirrored : mirrored))*wave[at];

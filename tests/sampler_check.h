@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 #include "facet/facet.h"
-#include "tests/chi_square.h"
+#include "verify/chi_square.h"
 
 #ifdef __cplusplus
 extern "C" {

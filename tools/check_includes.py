@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Includes point one way: include < core < render < io < cli, and one library's headers are seen by one .c.
+"""Includes point one way: include < core < verify < render < io < cli, and one library's headers are seen by one .c.
 
 Examples see include/ only; tests and benchmarks may see everything; the core needs nothing but C11.
 
@@ -14,7 +14,7 @@ INCLUDE = re.compile(r'^[ \t]*#[ \t]*include[ \t]*([<"])([^">]+)[">]', re.M)
 
 C11 = """assert complex ctype errno fenv float inttypes iso646 limits locale math setjmp signal stdalign stdarg
     stdatomic stdbool stddef stdint stdio stdlib stdnoreturn string tgmath threads time uchar wchar wctype"""
-POSIX = """dirent fcntl getopt glob poll pthread pty pwd sched strings termios unistd arpa/inet net/if netdb netinet/in
+POSIX = """dirent dlfcn fcntl getopt glob poll pthread pty pwd sched strings termios unistd arpa/inet net/if netdb netinet/in
     netinet/tcp sys/file sys/ioctl sys/mman sys/resource sys/select sys/socket sys/stat sys/statvfs sys/time sys/types
     sys/uio sys/un sys/utsname sys/wait"""
 INTRINSICS = "cpuid immintrin xmmintrin pmmintrin emmintrin"

@@ -202,6 +202,10 @@ typedef struct facet_terms64 {
 FACET_API facet_terms facet_bsdf_terms(const facet_bsdf *bsdf, const float m[3]);
 FACET_API facet_terms64 facet_bsdf64_terms(const facet_bsdf64 *bsdf, const double m[3]);
 
+/* D(m) alone, the same bits, where Lambda takes long (gtr: to its last digits, an integral). */
+FACET_API float facet_bsdf_D(const facet_bsdf *bsdf, const float m[3]);
+FACET_API double facet_bsdf64_D(const facet_bsdf64 *bsdf, const double m[3]);
+
 /* The directional albedo, Int f(wi,wo) |cos theta_i| d omega_i as RGB: what a world of radiance 1 sends to wo, by
  * reflection (`reflected`: wi on wo's side) and through the surface (`transmitted`), mirrors and smooth glass included.
  * By reciprocity `reflected` is also the share of the light from wo that is reflected.  What is transmitted carries the

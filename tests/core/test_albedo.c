@@ -11,7 +11,7 @@
 #include <cmocka.h>
 
 #include "tests/any_bsdf.h"
-#include "tests/quadrature.h"
+#include "verify/quadrature.h"
 
 #define TWO_PI 6.283185307179586
 

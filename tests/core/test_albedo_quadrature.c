@@ -16,7 +16,7 @@
 
 #include "facet/facet.h"
 #include "tests/any_bsdf.h"
-#include "tests/quadrature.h"
+#include "verify/quadrature.h"
 
 #define PI 3.14159265358979324
 

@@ -14,7 +14,7 @@
 
 #include "tests/any_bsdf.h"
 #include "tests/draws.h"
-#include "tests/quadrature.h"
+#include "verify/quadrature.h"
 
 #define PI 3.14159265358979323846
 

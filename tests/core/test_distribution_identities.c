@@ -17,7 +17,7 @@
 
 #include "tests/any_bsdf.h"
 #include "tests/kernel_access.h"
-#include "tests/quadrature.h"
+#include "verify/quadrature.h"
 
 typedef struct shape {
     kernel_distribution which;

@@ -14,7 +14,7 @@
 #include "facet/facet.h"
 #include "tests/any_bsdf.h"
 #include "tests/extremes.h"
-#include "tests/quadrature.h"
+#include "verify/quadrature.h"
 
 #define PI 3.14159265358979323846
 

@@ -20,7 +20,7 @@
 #include "facet/facet.h"
 #include "tests/any_bsdf.h"
 #include "tests/kernel_access.h"
-#include "tests/quadrature.h"
+#include "verify/quadrature.h"
 #include "tests/table_file.h"
 
 #define TWO_PI 6.283185307179586

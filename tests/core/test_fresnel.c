@@ -18,7 +18,7 @@
 #include "core/metals.h"
 #include "tests/any_bsdf.h"
 #include "tests/kernel_access.h"
-#include "tests/quadrature.h"
+#include "verify/quadrature.h"
 #include "tests/table_file.h"
 
 static const kernel_access *const builds[] = {&kernel_access_f32, &kernel_access_f64};

@@ -11,7 +11,7 @@
 
 #include "tests/any_bsdf.h"
 #include "tests/draws.h"
-#include "tests/quadrature.h"
+#include "verify/quadrature.h"
 
 /* u[2] that reflects whenever anything is reflected, and that transmits whenever anything is transmitted. */
 static const double reflecting[3] = {0.5, 0.5, 0}, transmitting[3] = {0.5, 0.5, 1 - 0x1p-24};

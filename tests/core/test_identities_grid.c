@@ -15,7 +15,7 @@
 #include "tests/draws.h"
 #include "tests/extremes.h"
 #include "tests/kernel_access.h"
-#include "tests/quadrature.h"
+#include "verify/quadrature.h"
 #include "tests/weight_check.h"
 
 #define PI 3.14159265358979323846

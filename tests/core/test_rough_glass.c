@@ -16,7 +16,7 @@
 
 #include "tests/any_bsdf.h"
 #include "tests/draws.h"
-#include "tests/quadrature.h"
+#include "verify/quadrature.h"
 #include "tests/weight_check.h"
 
 #define PI 3.14159265358979323846

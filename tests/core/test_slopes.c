@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #include "tests/kernel_access.h"
-#include "tests/quadrature.h"
+#include "verify/quadrature.h"
 
 #define HALF_PI 1.5707963267948966
 

@@ -15,7 +15,7 @@
 
 #include "tests/any_bsdf.h"
 #include "tests/draws.h"
-#include "tests/quadrature.h"
+#include "verify/quadrature.h"
 
 #define TWO_PI 6.283185307179586
 

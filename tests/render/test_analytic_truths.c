@@ -13,7 +13,7 @@
 #include <cmocka.h>
 
 #include "tests/draws.h"
-#include "tests/quadrature.h"
+#include "verify/quadrature.h"
 #include "tests/scene_builder.h"
 
 static const double pi = 3.14159265358979323846;

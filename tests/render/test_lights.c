@@ -12,7 +12,7 @@
 #include <cmocka.h>
 
 #include "render/tracer.h"
-#include "tests/chi_square.h"
+#include "verify/chi_square.h"
 #include "tests/draws.h"
 #include "tests/scene_builder.h"
 

@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-#include "tests/chi_square.h"
+#include "verify/chi_square.h"
 #include "tests/scene_builder.h"
 
 static sample_point point_of(const sampler *s, uint32_t x, uint32_t y, uint32_t index, uint32_t group)

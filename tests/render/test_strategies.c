@@ -13,7 +13,7 @@
 
 #include <cmocka.h>
 
-#include "tests/chi_square.h"
+#include "verify/chi_square.h"
 #include "tests/scene_builder.h"
 
 enum { SIZE = 32, BLOCKS = 4, SIDE = SIZE/BLOCKS };

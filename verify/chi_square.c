@@ -1,6 +1,6 @@
 /* chi_square.c: see chi_square.h.
  * SPDX-License-Identifier: MIT */
-#include "tests/chi_square.h"
+#include "verify/chi_square.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -33,6 +33,11 @@ typedef double (*plane_function)(double x, double y, const void *context);
 double cubature(plane_function f, const void *context, const double low[2], const double high[2], double tolerance,
                 int least_depth);
 
+/* Int f(x) over an interval by halving until Kronrod's rule of 15 points and Gauss's of 7 agree within `tolerance`
+ * (absolute, of each part), at most `depth` times. */
+typedef double (*line_function)(double x, const void *context);
+double gauss_kronrod(line_function f, const void *context, double low, double high, double tolerance, int depth);
+
 #ifdef __cplusplus
 }
 #endif

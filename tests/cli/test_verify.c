@@ -1,0 +1,149 @@
+/* test_verify.c: `facet verify` passes what is right, fails each published mistake for its reason, and survives
+ * plugins that crash, hang or are none.
+ * SPDX-License-Identifier: MIT */
+#include <dirent.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+/* cmocka needs the headers above */
+#include <cmocka.h>
+
+#include "tests/run_program.h"
+
+static char *folder;
+
+#define RUN(...) run_program(folder, NULL, NULL, (const char *const[]){FACET_PROGRAM, "verify", __VA_ARGS__, NULL})
+
+static int setup(void **state)
+{
+    (void)state;
+    folder = make_folder();
+    return 0;
+}
+
+static int teardown(void **state)
+{
+    (void)state;
+    remove_folder(folder);
+    return 0;
+}
+
+/* Runs end with the status, and say this on stdout and stderr. */
+static void expect(program_run run, int status, const char *in_out, const char *in_err)
+{
+    if (run.status != status || !strstr(run.out, in_out) || !strstr(run.err, in_err))
+        fail_msg("status %d (expected %d); expected `%s` in:\n%s\nand `%s` in:\n%s", run.status, status, in_out,
+                 run.out, in_err, run.err);
+    program_run_free(&run);
+}
+
+static const char *plugin(const char *name)
+{
+    static char path[512];
+    snprintf(path, sizeof path, "%s/%s.so", FACET_PLUGINS, name);
+    return path;
+}
+
+/* The check that a control's source says must find it: the word after "expect: "; false if there is none. */
+static int expected_check(const char *file, char check[32])
+{
+    char path[512];
+    size_t size;
+    snprintf(path, sizeof path, FACET_SOURCE_DIR "/tests/plugins/%s", file);
+    char *text = read_bytes(path, &size);
+    assert_non_null(text);
+    const char *line = strstr(text, "expect: ");
+    const int is_there = line != NULL && sscanf(line, "expect: %31[a-z-]", check) == 1;
+    free(text);
+    return is_there;
+}
+
+static void every_published_mistake_fails(void **state)
+{
+    (void)state;
+    DIR *listing = opendir(FACET_SOURCE_DIR "/tests/plugins");
+    assert_non_null(listing);
+    int n = 0;
+    for (const struct dirent *entry; (entry = readdir(listing));) {
+        char check[32], name[256], line[64];
+        const size_t length = strlen(entry->d_name);
+        if (length < 3 || strcmp(entry->d_name + length - 2, ".c") != 0 || !expected_check(entry->d_name, check))
+            continue;
+        snprintf(name, sizeof name, "%.*s", (int)(length - 2), entry->d_name);
+        snprintf(line, sizeof line, "  %-18s FAILS", check);
+        print_message("  %s: %s\n", name, check);
+        expect(RUN("--plugin", plugin(name), "--check", check, "--samples", "50000"), 1, line, "");
+        n++;
+    }
+    closedir(listing);
+    assert_true(n >= 20);
+}
+
+/* What only a mistake of the sampler is, is no mistake of the rest. */
+static void the_rest_of_a_mistaken_model_holds(void **state)
+{
+    (void)state;
+    expect(RUN("--plugin", plugin("phong_exponent"), "--check", "furnace"), 0, "all checks hold", "");
+    expect(RUN("--plugin", plugin("phong_exponent"), "--check", "weight"), 0, "all checks hold", "");
+    expect(RUN("--plugin", plugin("two_alphas"), "--check", "chi-square", "--samples", "50000"), 0, "all checks hold",
+           "");
+    expect(RUN("--plugin", plugin("two_alphas"), "--check", "normalisation"), 0, "all checks hold", "");
+    expect(RUN("--plugin", plugin("bonn_ward"), "--check", "reciprocity"), 0, "all checks hold", "");
+    expect(RUN("--plugin", plugin("weight_without_cos"), "--check", "chi-square", "--samples", "50000"), 0,
+           "all checks hold", "");
+}
+
+static void the_example_holds(void **state)
+{
+    (void)state;
+    expect(RUN("--plugin", FACET_EXAMPLES "/plugin_phong.so", "exponent=20"), 0, "all checks hold", "");
+}
+
+static void plugins_that_fail_end_with_a_line(void **state)
+{
+    (void)state;
+    expect(RUN("--plugin", plugin("crash")), 3, "", "was ended by signal 11");
+    expect(RUN("--plugin", plugin("hang"), "--patience", "0.5"), 3, "", "has not returned for 0.5 s in eval");
+    expect(RUN("--plugin", plugin("nan")), 1, "f cos is", "");
+    expect(RUN("--plugin", plugin("no_describe")), 3, "", "defines no facet_plugin_describe");
+    expect(RUN("--plugin", plugin("old_size")), 3, "", "smaller than this version's");
+    expect(RUN("--plugin", plugin("bad_table")), 3, "", "lowest, value and highest");
+    expect(RUN("--plugin", plugin("absent")), 3, "", "No such file");
+    expect(RUN("--plugin", plugin("two_alphas"), "roughnes=.5"), 2, "", "did you mean `roughness`?");
+    expect(RUN("--plugin", plugin("two_alphas"), "roughness=7"), 2, "", "out of range");
+    expect(RUN("--plugin", plugin("two_alphas"), "roughness=x"), 2, "", "is not a number");
+    expect(RUN("--plugin", plugin("two_alphas"), "roughness"), 2, "", "NAME=VALUE");
+    write_text(in_folder(folder, "text.so"), "no library\n");
+    expect(RUN("--plugin", "text.so"), 3, "", "is no shared library");
+}
+
+static void materials_are_verified(void **state)
+{
+    (void)state;
+    expect(RUN("ggx alpha=.3", "--samples", "50000"), 0, "all checks hold", "");
+    expect(RUN("gtr alpha=.1 gamma=1.5", "--fixed", "--samples", "50000"), 0, "all checks hold", "");
+    expect(RUN("gtr alpha=.1 gamma=1.5 masking=published", "--check", "weak-furnace"), 1, "weak-furnace       FAILS",
+           "");
+    expect(RUN("phong exponent=1 masking=published", "--check", "weak-furnace"), 1, "weak-furnace       FAILS", "");
+    expect(RUN("lambert kd=1", "--check", "furnace", "--json"), 0, "\"verdict\": \"passed\"", "");
+    expect(RUN("ggx roughness=.3"), 2, "", "roughness");
+    expect(RUN("--all", "ggx"), 2, "", "takes no material");
+    expect(RUN("--check", "furnace"), 2, "", "one material is needed");
+    expect(RUN("ggx", "--check", "colour"), 2, "", "colour");
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(every_published_mistake_fails),
+        cmocka_unit_test(the_rest_of_a_mistaken_model_holds),
+        cmocka_unit_test(the_example_holds),
+        cmocka_unit_test(plugins_that_fail_end_with_a_line),
+        cmocka_unit_test(materials_are_verified),
+    };
+    return cmocka_run_group_tests(tests, setup, teardown);
+}
