@@ -67,9 +67,10 @@ static bool is_given(const facet_material *m, const char *name)
 static bool is_isotropic(const facet_material *m)
 {
     const named_value x = value_of(m, "alpha_x"), y = value_of(m, "alpha_y"), both = value_of(m, "alpha");
-    const double *along = x.is_given || !both.is_there ? x.v : both.v,
-                 *across = y.is_given || !both.is_there ? y.v : both.v;
-    return is_number(m, "anisotropic", 0) && (!x.is_there || along[0] == across[0]);
+    if (!is_number(m, "anisotropic", 0)) return false;
+    if (!x.is_there || !y.is_there) return true;
+    const double along = x.is_given || !both.is_there ? x.v[0] : both.v[0];
+    return along == (y.is_given || !both.is_there ? y.v[0] : both.v[0]);
 }
 
 /* The order of the choices is that of the parameter tables (core/model/model_microfacet.h, model_ward.h). */

@@ -172,7 +172,7 @@ sampler_result sampler_test(const sampler_subject *s, const double wo[3], bool h
     observed[n_cells] = 0;
     for (int k = 0; k < n; k++) {
         double wi[3];
-        observed[s->draw(s->context, wo, (uint64_t)(PILOT + k), wi) ? cell_of(&grid, wi) : n_cells]++;
+        observed[s->draw(s->context, wo, PILOT + (uint64_t)k, wi) ? cell_of(&grid, wi) : n_cells]++;
     }
     /* What the cubature leaves undecided, its tolerance times the cells, is not zero probability. */
     if (observed[n_cells] > 0 && lost < 2e-8*n_cells) expected[n_cells] = 2e-8*n_cells*n;

@@ -23,6 +23,9 @@
 extern "C" {
 #endif
 
+/* Exports what a plugin defines, whatever its compiler hides. */
+#define FACET_PLUGIN FACET_API
+
 /* What a plugin promises of its model, besides what every model promises: numbers that are finite and not negative, a
  * pdf that is the density of the samples, and weights that are f cos/pdf.  facet verify checks each promise. */
 enum {
@@ -67,7 +70,7 @@ typedef struct facet_plugin {
 } facet_plugin;
 
 /* What a plugin defines. */
-FACET_API const facet_plugin *facet_plugin_describe(void);
+FACET_PLUGIN const facet_plugin *facet_plugin_describe(void);
 
 #ifdef __cplusplus
 }
