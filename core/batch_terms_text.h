@@ -128,11 +128,16 @@ static void gtr_drawn_D(const distribution *d, size_t n, facet_dirs m, float *D)
 {
     const gtr_shape g = d->gtr;
     float *restrict const out = D;
-    float power[BLOCK];
-    EACH_OF(n) power[i] = gtr_base(gather(m, i), g).x;
+    float power[BLOCK], ratio[BLOCK];
+    EACH_OF(n)
+    {
+        const real2 base = gtr_base(gather(m, i), g);
+        power[i] = base.x;
+        ratio[i] = base.y;
+    }
     EACH_OF(n) power[i] = klog_quick(power[i]);
     EACH_OF(n) power[i] = kexp(-g.gamma*power[i]);
-    EACH_OF(n) out[i] = gtr_D_of(gather(m, i), g, power[i]);
+    EACH_OF(n) out[i] = gtr_D_of(m.z[i], g, ratio[i], power[i]);
 }
 
 static void gtr_disney_D_block(const gtr_shape *shape, size_t n, facet_dirs m, float *D)
@@ -160,27 +165,49 @@ static void gtr_A_block(const gtr_shape *shape, size_t n, const float *x, float 
     else EACH_OF(n) out[i] = gtr_A(g, x[i]);
 }
 
-/* gtr_A towards each direction. */
-static void gtr_A_towards(const gtr_shape *shape, size_t n, facet_dirs v, float *A)
+/* 1/s towards n directions, and gtr_A from it for n numbers, which `x` holds and loses. */
+static void gtr_inverses(const gtr_shape *shape, size_t n, facet_dirs v, float *x)
 {
     const gtr_shape g = *shape;
-    float x[BLOCK];
+    float *restrict const out = x;
     EACH_OF(n)
     {
         const real3 w = gtr_unstretch_direction(g, gather(v, i));
-        x[i] = gtr_inverse_s(g, w.z*w.z, w.x*w.x + w.y*w.y);
+        out[i] = gtr_inverse_s(g, w.z*w.z, w.x*w.x + w.y*w.y);
     }
+}
+
+static void gtr_A_of(const gtr_shape *shape, size_t n, float *x, float *A)
+{
+    const gtr_shape g = *shape;
     EACH_OF(n) x[i] = gtr_variable(g, x[i]);
     gtr_A_block(shape, n, x, A, NULL);
 }
 
+static void gtr_sigma_with(const gtr_shape *shape, size_t n, facet_dirs v, const float *A, float *sigma)
+{
+    const gtr_shape g = *shape;
+    float *restrict const out = sigma;
+    EACH_OF(n) out[i] = gtr_sigma_of(gather(v, i), g, A[i]);
+}
+
 static void gtr_exact_sigma(const distribution *d, size_t n, facet_dirs v, float *sigma)
 {
-    const gtr_shape g = d->gtr;
-    float *restrict const out = sigma;
-    float A[BLOCK];
-    gtr_A_towards(&g, n, v, A);
-    EACH_OF(n) out[i] = gtr_sigma_of(gather(v, i), g, A[i]);
+    float x[BLOCK], A[BLOCK];
+    gtr_inverses(&d->gtr, n, v, x);
+    gtr_A_of(&d->gtr, n, x, A);
+    gtr_sigma_with(&d->gtr, n, v, A, sigma);
+}
+
+/* Towards both directions: a loop of twice the length costs less than two, which each begin with the constants. */
+static void gtr_exact_sigmas(const distribution *d, size_t n, facet_dirs wi, facet_dirs wo, block_terms *t)
+{
+    float x[2*BLOCK], A[2*BLOCK];
+    gtr_inverses(&d->gtr, n, wi, x);
+    gtr_inverses(&d->gtr, n, wo, x + n);
+    gtr_A_of(&d->gtr, 2*n, x, A);
+    gtr_sigma_with(&d->gtr, n, wi, A, t->sigma_i);
+    gtr_sigma_with(&d->gtr, n, wo, A + n, t->sigma_o);
 }
 
 /* The radii of normals: of those beyond Y0, a share xi lies before. */
@@ -299,7 +326,8 @@ static void gtr_visible_normals(const distribution *d, size_t n, facet_dirs wo, 
     const gtr_shape g = d->gtr;
     float A[BLOCK], mu[BLOCK], T[BLOCK], cos_phi[BLOCK], sin_phi[BLOCK], rest[BLOCK] = {0}, Y0[BLOCK] = {0}, r[BLOCK];
     int is_tail[BLOCK];
-    gtr_A_towards(&g, n, wo, A);
+    gtr_inverses(&g, n, wo, rest);
+    gtr_A_of(&g, n, rest, A);
     EACH_OF(n)
     {
         const gtr_view v = gtr_view_of(gather(wo, i), g, A[i]);
@@ -364,6 +392,8 @@ static inline void find_terms(const distribution *d, size_t n, facet_dirs wi, fa
         loops->published_sigma(d, n, wo, t->sigma_o);
         loops->exact_sigma(d, n, wo, t->other_sigma);
         t->drawn_sigma = t->other_sigma;
+    } else if (d->kind == NDF_GTR) {
+        gtr_exact_sigmas(d, n, wi, wo, t);
     } else {
         loops->exact_sigma(d, n, wi, t->sigma_i);
         loops->exact_sigma(d, n, wo, t->sigma_o);

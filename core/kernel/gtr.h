@@ -72,14 +72,18 @@ KERNEL real2 gtr_base(real3 m, gtr_shape g)
 /* D at the direction of m, 1/sr; m need not be a unit vector.  [disney, 1, 4, 8]:
  *     D = c/(1 + (alpha^2 - 1) cos^2)^gamma.
  * Departure: D = D(n) (1 + k0/alpha^2 sin^2)^-gamma with sin^2 from the vector, which neither overflows nor cancels.
- * The stretch divides the slopes and multiplies D by (cos_unstretched/cos)^4.  power: the base to the -gamma. */
-KERNEL real gtr_D_of(real3 m, gtr_shape g, real power)
+ * The stretch divides the slopes and multiplies D by (cos_unstretched/cos)^4.  ratio, power: the second part of gtr_base,
+ * and its first to the -gamma. */
+KERNEL real gtr_D_of(real cos, gtr_shape g, real ratio, real power)
 {
-    real2 base = gtr_base(m, g);
-    return m.z > 0 ? g.peak*base.y*base.y*power : (real)0;
+    return cos > 0 ? g.peak*ratio*ratio*power : (real)0;
 }
 
-KERNEL real gtr_D(real3 m, gtr_shape g) { return gtr_D_of(m, g, kexp(-g.gamma*klog_quick(gtr_base(m, g).x))); }
+KERNEL real gtr_D(real3 m, gtr_shape g)
+{
+    real2 base = gtr_base(m, g);
+    return gtr_D_of(m.z, g, base.y, kexp(-g.gamma*klog_quick(base.x)));
+}
 
 /* [disney, 10] with any exponent: the same core, tails not stretched. */
 KERNEL real gtr_disney_D(real3 m, gtr_shape g)
