@@ -15,9 +15,9 @@ typedef enum kernel_distribution {
     KERNEL_GGX
 } kernel_distribution;
 
-/* What is known of G1 of gtr: from the polynomials that materials use, by quadrature for each element, and as
- * published. */
-typedef enum kernel_masking { KERNEL_PREPARED, KERNEL_DIRECT, KERNEL_PUBLISHED } kernel_masking;
+/* What is known of G1 of gtr: from the polynomials that materials use, as the probability with which the sampler
+ * chooses its body, by quadrature for each element, and as published. */
+typedef enum kernel_masking { KERNEL_PREPARED, KERNEL_DRAWN, KERNEL_DIRECT, KERNEL_PUBLISHED } kernel_masking;
 
 typedef struct kernel_access {
     const char *name;
@@ -40,6 +40,8 @@ typedef struct kernel_access {
     double (*gtr_G1)(kernel_masking which, double alpha, double gamma, double mu);
     double (*gtr_Lambda)(double alpha, double gamma, double mu);
     void (*gtr_sample_ndf)(double alpha, double gamma, double ux, double uy, double m[3]);
+    /* The line q that u draws for a viewer of cotangent mu, and tan(phi/2) of the azimuth beyond it that v draws. */
+    void (*gtr_tail)(double alpha, double gamma, double mu, double u, double v, double *q, double *h);
     double (*fresnel_dielectric)(double c, double eta);
     /* Schlick's approximation with the dielectric's reflectance at normal incidence. */
     double (*fresnel_schlick)(double c, double eta);

@@ -110,8 +110,10 @@ static double gtr_G1(kernel_masking which, double alpha, double gamma, double mu
     const gtr_shape *g = gtr_of(alpha, alpha, gamma, 0);
     const double inverse = 1/hypot(mu, 1);
     const real3 v = make3((real)inverse, 0, (real)(mu*inverse));
+    const gtr_view view = gtr_view_of(v, *g);
     switch (which) {
     case KERNEL_PREPARED: return (double)(v.z/gtr_sigma(v, *g));
+    case KERNEL_DRAWN: return (double)(view.mu/(view.mu + view.T));
     case KERNEL_DIRECT: return 1/(1 + (double)gtr_Lambda_direct((real)alpha, (real)gamma, (real)mu));
     case KERNEL_PUBLISHED: return (double)gtr_published_G1(v, *g, gtr_spline_at((real)gamma));
     }
@@ -129,6 +131,16 @@ static void sample_gtr(double alpha, double gamma, double ux, double uy, double 
     m[0] = (double)n.x;
     m[1] = (double)n.y;
     m[2] = (double)n.z;
+}
+
+static void gtr_tail_at(double alpha, double gamma, double mu, double u, double v, double *q, double *h)
+{
+    const gtr_shape *g = gtr_of(alpha, alpha, gamma, 0);
+    const double inverse = 1/hypot(mu, 1);
+    const gtr_view view = gtr_view_of(make3((real)inverse, 0, (real)(mu*inverse)), *g);
+    const gtr_tail_line line = gtr_draw_line(*g, view.mu, view.T, (real)u);
+    *q = (double)line.q;
+    *h = (double)gtr_azimuth(*g, line, (real)v);
 }
 
 static double dielectric(double c, double eta)
@@ -192,6 +204,7 @@ const kernel_access ACCESS = {
     .gtr_G1 = gtr_G1,
     .gtr_Lambda = gtr_Lambda_of,
     .gtr_sample_ndf = sample_gtr,
+    .gtr_tail = gtr_tail_at,
     .fresnel_dielectric = dielectric,
     .fresnel_schlick = schlick,
     .fresnel_conductor = conductor,

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How much of a mistake the tests notice: changes one constant or operator of core/kernel/ at a time, and runs the tests.
+"""Which mistakes the tests notice: changes one constant or operator of core/kernel/ at a time, and runs them.
 
     tools/mutate.py [--count N] [--seed S] [--file NAME.h] [--only ID,...] [--jobs J] [--list]
                     [--build FOLDER] [--tests WORD,...] [--slowest SECONDS] [--report FILE.md] [--csv FILE]
@@ -222,14 +222,15 @@ class Build:
         except (OSError, ValueError) as why:
             raise Failure(f"{folder}: not a configured build folder ({why.__class__.__name__}); run `cmake --preset "
                           "dev`, or name one with --build") from why
+        top = os.path.realpath(root)
         home = re.search(r"^CMAKE_HOME_DIRECTORY:INTERNAL=(.*)$", cache, re.M)
-        if not home or os.path.realpath(home.group(1)) != os.path.realpath(root):
+        if not home or os.path.realpath(home.group(1)) != top:
             raise Failure(f"{folder}: configured for another checkout")
         cmocka = re.search(r"^pkgcfg_lib_CMOCKA_cmocka:FILEPATH=(.*)$", cache, re.M)
         self.libraries = [cmocka.group(1) if cmocka else "-lcmocka", "-lm"]
         self.flags = {}
         for row in rows:
-            name = os.path.relpath(os.path.realpath(os.path.join(row["directory"], row["file"])), os.path.realpath(root))
+            name = os.path.relpath(os.path.realpath(os.path.join(row["directory"], row["file"])), top)
             words = shlex.split(row["command"]) if "command" in row else row["arguments"]
             self.flags[name] = self.simplified(words)
         self.core = [n for n in sorted(self.flags) if os.path.dirname(n) == "core" and not VARIANT.search(n)]
@@ -309,8 +310,9 @@ class Workshop:
     def link_core(self, to, objects):
         b = self.build
         files = [objects.get(n, os.path.join(self.base, b.object(n))) for n in b.core + b.access]
-        run_quietly([b.compiler, "-shared", "-o", os.path.join(to, "libfacet_core.so")] + files + b.link_flags + ["-lm"],
-                    self.folder, "linking core")
+        library = os.path.join(to, "libfacet_core.so")
+        run_quietly([b.compiler, "-shared", "-o", library] + files + b.link_flags + ["-lm"], self.folder,
+                    "linking core")
 
     def link_test(self, name, objects, to):
         b = self.build
@@ -463,7 +465,8 @@ class Progress:
 
 
 def shown(mutation):
-    return f"{mutation.id} core/kernel/{mutation.file}:{mutation.line}: {mutation.kind}: {mutation.old} -> {mutation.new}"
+    m = mutation
+    return f"{m.id} core/kernel/{m.file}:{m.line}: {m.kind}: {m.old} -> {m.new}"
 
 
 def summary(results, slow):
@@ -548,7 +551,8 @@ def run(options, arguments):
             finally:
                 free.append(shop)
 
-        order = random.Random(options.seed).sample(mutations, len(mutations))  # so that a part of a run is a sample too
+        # In random order, so that what an interrupted run has done is a sample too.
+        order = random.Random(options.seed).sample(mutations, len(mutations))
         try:
             for future in concurrent.futures.as_completed([pool.submit(work, m) for m in order]):
                 results.append(future.result())

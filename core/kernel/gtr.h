@@ -72,8 +72,8 @@ KERNEL real2 gtr_base(real3 m, gtr_shape g)
 /* D at the direction of m, 1/sr; m need not be a unit vector.  [disney, 1, 4, 8]:
  *     D = c/(1 + (alpha^2 - 1) cos^2)^gamma.
  * Departure: D = D(n) (1 + k0/alpha^2 sin^2)^-gamma with sin^2 from the vector, which neither overflows nor cancels.
- * The stretch divides the slopes and multiplies D by (cos_unstretched/cos)^4.  ratio, power: the second part of gtr_base,
- * and its first to the -gamma. */
+ * The stretch divides the slopes and multiplies D by (cos_unstretched/cos)^4.  ratio, power: the second part of
+ * gtr_base, and its first to the -gamma. */
 KERNEL real gtr_D_of(real cos, gtr_shape g, real ratio, real power)
 {
     return cos > 0 ? g.peak*ratio*ratio*power : (real)0;

@@ -160,12 +160,41 @@ static void published_phong_masking_breaks_the_furnace(void **state)
     }
 }
 
+/* The models that borrow a distribution report its terms, to the bit: 0.5^2 and the exponent's alpha are exact.  And
+ * G1 = 1/(1 + Lambda) above the horizon: one rounding of Lambda, of the sum and of the quotient. */
+static void borrowed_distributions_have_their_terms(void **state)
+{
+    (void)state;
+    static const char *const pairs[][2] = {
+        {"ggx alpha=.25", "metallic_roughness roughness=.5 metallic=1"},
+        {"ggx alpha=.25", "disney roughness=.5 clearcoat=1"},
+        {"ggx alpha_x=.25 alpha_y=1", "glass alpha_x=.25 alpha_y=1"},
+        {"beckmann alpha=.25", "glass ndf=beckmann alpha=.25 wall=thin"},
+        {"phong exponent=30", "glass ndf=phong exponent=30"},
+    };
+    static const double heights[] = {1, .9, .5, .1, .001, -.001, -1};
+    for (size_t i = 0; i < sizeof pairs/sizeof pairs[0]; i++)
+        for (int k = 0; k < 14; k++) {
+            const any_bsdf own = any_bsdf_of(pairs[i][0], k%2), borrowed = any_bsdf_of(pairs[i][1], k%2);
+            double m[3];
+            any_direction(heights[k/2], .7, m);
+            const facet_terms64 want = any_terms(&own, m), got = any_terms(&borrowed, m);
+            const double G1 = heights[k/2] > 0 ? 1/(1 + got.Lambda) : 0;
+            if (!(got.D == want.D && got.Lambda == want.Lambda && got.G1 == want.G1))
+                fail_msg("%s, cos %g: D %a Lambda %a G1 %a; %s: %a %a %a", pairs[i][1], heights[k/2], got.D,
+                         got.Lambda, got.G1, pairs[i][0], want.D, want.Lambda, want.G1);
+            if (!(fabs(got.G1 - G1) <= 2*any_epsilon(&borrowed)*G1) || (want.D > 0 && heights[k/2] < 0))
+                fail_msg("%s, cos %g: D %a, G1 %a, not %a", pairs[i][1], heights[k/2], want.D, got.G1, G1);
+        }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(distributions_are_normalised),
         cmocka_unit_test(weak_white_furnace_is_closed),
         cmocka_unit_test(published_phong_masking_breaks_the_furnace),
+        cmocka_unit_test(borrowed_distributions_have_their_terms),
     };
     return cmocka_run_group_tests_name("distribution_identities", tests, NULL, NULL);
 }
