@@ -199,21 +199,34 @@ static void check_value(verify_result *r, const char *name, double x, bool is_no
                  is_nothing && x > 0 ? " where there is no light" : "");
 }
 
+/* The directions that a view is paired with: edges of the domain, the view itself, its mirror image, and all views. */
+enum { EDGES = 9, MOST_PARTNERS = EDGES + 2 + VERIFY_MOST_VIEWS };
+static int partners_of(const double wo[3], double views[][3], int n_views, double wi[MOST_PARTNERS][3])
+{
+    static const double edges[EDGES][2] = {{1, 0},    {0.999999, 2}, {0.5, 1},  {1e-2, 4}, {1e-4, 2},
+                                           {1e-8, 5}, {-1e-4, 1},    {-0.3, 3}, {-1, 0}};
+    for (int i = 0; i < EDGES; i++) verify_direction(edges[i][0], edges[i][1], wi[i]);
+    for (int k = 0; k < 3; k++) {
+        wi[EDGES][k] = wo[k];
+        wi[EDGES + 1][k] = k < 2 ? -wo[k] : wo[k];
+    }
+    for (int i = 0; i < n_views; i++)
+        for (int k = 0; k < 3; k++) wi[EDGES + 2 + i][k] = views[i][k];
+    return EDGES + 2 + n_views;
+}
+
 static verify_result positive(const verify_subject *s)
 {
-    static const double edges[][2] = {{1, 0},    {0.999999, 2}, {0.5, 1},  {1e-2, 4}, {1e-4, 2},
-                                      {1e-8, 5}, {-1e-4, 1},    {-0.3, 3}, {-1, 0}};
     static const double numbers[NUMBERS] = {0, 0x1p-53, 1e-3, 0.5, 0.999, 1 - 0x1p-24, 1 - 0x1p-53};
     verify_result r = start(VERIFY_POSITIVE, 0);
-    double views[VERIFY_MOST_VIEWS][3];
+    double views[VERIFY_MOST_VIEWS][3], partners[MOST_PARTNERS][3];
     const int n = verify_views(s, views);
     for (int i = 0; i < n; i++) {
         const double *wo = views[i];
-        for (int j = 0; j < 9 + 2 + n; j++) {
-            double wi[3], f[3] = {0};
-            if (j < 9) verify_direction(edges[j][0], edges[j][1], wi);
-            else
-                for (int k = 0; k < 3; k++) wi[k] = j > 10 ? views[j - 11][k] : k == 2 || j == 9 ? wo[k] : -wo[k];
+        const int n_partners = partners_of(wo, views, n, partners);
+        for (int j = 0; j < n_partners; j++) {
+            const double *wi = partners[j];
+            double f[3] = {0};
             const bool is_nothing = !(s->claims & FACET_CLAIMS_TRANSMITS) && wi[2] <= 0;
             s->eval(s->self, wi, wo, f);
             for (int k = 0; k < 3; k++) check_value(&r, "f cos", f[k], is_nothing, wo, wi);
