@@ -40,8 +40,8 @@ typedef struct kernel_access {
     double (*gtr_G1)(kernel_masking which, double alpha, double gamma, double mu);
     double (*gtr_Lambda)(double alpha, double gamma, double mu);
     void (*gtr_sample_ndf)(double alpha, double gamma, double ux, double uy, double m[3]);
-    /* The line q that u draws for a viewer of cotangent mu, and tan(phi/2) of the azimuth beyond it that v draws. */
-    void (*gtr_tail)(double alpha, double gamma, double mu, double u, double v, double *q, double *h);
+    /* The line q beyond which a tail of the visible normals lies, that u draws for a viewer of cotangent mu. */
+    double (*gtr_tail_line)(double alpha, double gamma, double mu, double u);
     double (*fresnel_dielectric)(double c, double eta);
     /* Schlick's approximation with the dielectric's reflectance at normal incidence. */
     double (*fresnel_schlick)(double c, double eta);

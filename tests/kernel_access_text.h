@@ -110,7 +110,7 @@ static double gtr_G1(kernel_masking which, double alpha, double gamma, double mu
     const gtr_shape *g = gtr_of(alpha, alpha, gamma, 0);
     const double inverse = 1/hypot(mu, 1);
     const real3 v = make3((real)inverse, 0, (real)(mu*inverse));
-    const gtr_view view = gtr_view_of(v, *g);
+    const gtr_view view = gtr_view_of(v, *g, gtr_A(*g, gtr_variable_at(v, *g)));
     switch (which) {
     case KERNEL_PREPARED: return (double)(v.z/gtr_sigma(v, *g));
     case KERNEL_DRAWN: return (double)(view.mu/(view.mu + view.T));
@@ -133,14 +133,13 @@ static void sample_gtr(double alpha, double gamma, double ux, double uy, double 
     m[2] = (double)n.z;
 }
 
-static void gtr_tail_at(double alpha, double gamma, double mu, double u, double v, double *q, double *h)
+static double gtr_tail_line(double alpha, double gamma, double mu, double u)
 {
     const gtr_shape *g = gtr_of(alpha, alpha, gamma, 0);
     const double inverse = 1/hypot(mu, 1);
-    const gtr_view view = gtr_view_of(make3((real)inverse, 0, (real)(mu*inverse)), *g);
-    const gtr_tail_line line = gtr_draw_line(*g, view.mu, view.T, (real)u);
-    *q = (double)line.q;
-    *h = (double)gtr_azimuth(*g, line, (real)v);
+    const real3 v = make3((real)inverse, 0, (real)(mu*inverse));
+    const gtr_view view = gtr_view_of(v, *g, gtr_A(*g, gtr_variable_at(v, *g)));
+    return (double)gtr_draw_line(*g, view.mu, gtr_tail_mass(view, (real)u));
 }
 
 static double dielectric(double c, double eta)
@@ -204,7 +203,7 @@ const kernel_access ACCESS = {
     .gtr_G1 = gtr_G1,
     .gtr_Lambda = gtr_Lambda_of,
     .gtr_sample_ndf = sample_gtr,
-    .gtr_tail = gtr_tail_at,
+    .gtr_tail_line = gtr_tail_line,
     .fresnel_dielectric = dielectric,
     .fresnel_schlick = schlick,
     .fresnel_conductor = conductor,

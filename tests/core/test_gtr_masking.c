@@ -14,7 +14,6 @@
 #include <cmocka.h>
 
 #include "tests/kernel_access.h"
-#include "tests/quadrature.h"
 #include "tests/table_file.h"
 
 #define PI 3.14159265358979323846
@@ -22,10 +21,8 @@
 static const kernel_access *const precisions[] = {&kernel_access_f32, &kernel_access_f64};
 static const double G1_bounds[] = {1e-6, 1e-12}, Lambda_bounds[] = {1e-5, 1e-13};
 #define LEAST_LAMBDA 1e-30
-/* Errors of probabilities of the sampler's tail, docs/models/gtr.md: two and eight steps of Newton's method for its
- * line, 6 and 24 quartics for its azimuth, which are worst for lines before a tenth of the mean slope. */
-static const double line_bounds[] = {2e-4, 1e-12}, near_bounds[] = {5e-4, 1.5e-4};
-static const double azimuth_bounds[] = {1e-4, 1e-5};
+/* Errors of the probability of the sampler's line: two and eight steps of Newton's method. */
+static const double line_bounds[] = {1e-5, 1e-13};
 
 static const double alphas[] = {1e-4, 3e-4, 1e-3, .01, .03, .1, .3, .6, .9, .99, .9999, 1};
 static const double gammas[] = {1e-3, .05, .3,  .7, .9,  .999,  1, 1.001, 1.1, 1.2, 1.3,  1.5, 1.8,
@@ -205,76 +202,31 @@ static void published_masking_is_the_papers_spline(void **state)
     assert_true(fabs(splined - .1247) < 3e-3);
 }
 
-/* Int S(q/cos phi) d phi over [0, end], or with the angle from pi/2, where the integrand falls or has a layer. */
-static double azimuths(double alpha, double gamma, double q, double end, int is_from_side)
-{
-    static quadrature rule;
-    if (rule.n == 0) rule = unit_interval(1.0/16);
-    double sum = 0;
-    for (int i = 0; i < rule.n; i++) {
-        const double angle = end*rule.x[i], r = q/(is_from_side ? sin(angle) : cos(angle));
-        sum += rule.w[i]*end*survival(r*r, alpha, gamma);
-    }
-    return sum;
-}
-
-/* A line of the tail, and how far it and the azimuths drawn beyond it are off, in probability. */
-typedef struct drawn_line {
-    double q, line, azimuth;
-} drawn_line;
-
-static drawn_line draw_line(int k, double alpha, double gamma, double mu, double u)
-{
-    static const double numbers[] = {0, .01, .2, .5, .7, .9, .97, .999};
-    drawn_line at = {0};
-    double near = 0, side = 0;
-    for (size_t i = 0; i < sizeof numbers/sizeof numbers[0]; i++) {
-        double h;
-        precisions[k]->gtr_tail(alpha, gamma, mu, u, numbers[i], &at.q, &h);
-        if (!(at.q > 0 && isfinite(at.q) && h >= 0 && h < 1))
-            fail_msg("alpha %g gamma %g mu %g, u %g: line %a, azimuth %a", alpha, gamma, mu, u, at.q, h);
-        if (i == 0) {
-            near = azimuths(alpha, gamma, at.q, PI/4, 0);
-            side = azimuths(alpha, gamma, at.q, PI/4, 1);
-        }
-        const double phi = 2*atan(h), rest = atan2((1 - h)*(1 + h), 2*h);
-        const double share = phi < PI/4 ? azimuths(alpha, gamma, at.q, phi, 0)/(near + side)
-                                        : 1 - azimuths(alpha, gamma, at.q, rest, 1)/(near + side);
-        at.azimuth = fmax(at.azimuth, fabs(share - rounded(numbers[i], k)));
-    }
-    const double Lambda = kernel_access_f64.gtr_Lambda(alpha, gamma, mu);
-    const double beyond = at.q*kernel_access_f64.gtr_Lambda(alpha, gamma, at.q)/(mu*Lambda);
-    at.line = fabs(beyond - (1 - rounded(u, k)))*Lambda/(1 + Lambda);
-    return at;
-}
-
-/* The tail's line has T(q) = (1 - u) T(mu), T = mu Lambda, and a share v of the points beyond it lies nearer than
- * phi.  Tails with a probability below 1e-4 are left out: T, which is G1's, has few digits there in float. */
-static void tail_is_drawn_in_its_shares(void **state)
+/* The tail's line has T(q) = (1 - u) T(mu), T = mu Lambda.  Tails with a probability below 1e-4 are left out: T, which
+ * is G1's, has few digits there in float. */
+static void tails_lines_have_their_shares(void **state)
 {
     (void)state;
     static const double numbers[] = {0, .05, .3, .8, .99};
-    double line[2] = {0}, azimuth[2][2] = {{0}};
+    double worst[2] = {0};
     for (int a = 0; a < N_ALPHAS; a += 2)
         for (int g = 1; g < N_GAMMAS; g += 3)
             for (int m = 0; m < N_SCALED; m++)
                 for (int i = 0; i < 10; i++) {
                     const int k = i%2;
                     const double alpha = rounded(alphas[a], k), gamma = rounded(gammas[g], k);
-                    const double mu = rounded(alpha*scaled_mus[m], k);
-                    if (kernel_access_f64.gtr_Lambda(alpha, gamma, mu) < 1e-4) continue;
-                    const drawn_line at = draw_line(k, alpha, gamma, mu, numbers[i/2]);
-                    /* The mean slope is 2 T(0); T(1e-9) is the same. */
-                    const int is_far = at.q > .1*2e-9*kernel_access_f64.gtr_Lambda(alpha, gamma, 1e-9);
-                    line[k] = fmax(line[k], at.line);
-                    azimuth[k][is_far] = fmax(azimuth[k][is_far], at.azimuth);
-                    if (!(at.line <= line_bounds[k] && at.azimuth <= (is_far ? azimuth_bounds : near_bounds)[k]))
-                        fail_msg("alpha %g gamma %g mu %g, u %g, %s: line %g off by %.3g, azimuths by %.3g", alpha,
-                                 gamma, mu, numbers[i/2], precisions[k]->name, at.q, at.line, at.azimuth);
+                    const double mu = rounded(alpha*scaled_mus[m], k), u = rounded(numbers[i/2], k);
+                    const double Lambda = kernel_access_f64.gtr_Lambda(alpha, gamma, mu);
+                    if (Lambda < 1e-4) continue;
+                    const double q = precisions[k]->gtr_tail_line(alpha, gamma, mu, u);
+                    const double beyond = q*kernel_access_f64.gtr_Lambda(alpha, gamma, q)/(mu*Lambda);
+                    const double error = fabs(beyond - (1 - u))*Lambda/(1 + Lambda);
+                    worst[k] = fmax(worst[k], error);
+                    if (!(error <= line_bounds[k]))
+                        fail_msg("alpha %g gamma %g mu %g, u %g, %s: line %g off by %.3g", alpha, gamma, mu, u,
+                                 precisions[k]->name, q, error);
                 }
-    for (int k = 0; k < 2; k++)
-        print_message("  %s: line %.2g, azimuth %.2g, far %.2g\n", precisions[k]->name, line[k], azimuth[k][0],
-                      azimuth[k][1]);
+    print_message("  line: float %.2g, double %.2g\n", worst[0], worst[1]);
 }
 
 int main(void)
@@ -285,7 +237,7 @@ int main(void)
         cmocka_unit_test(masking_below_gamma_2_is_a_mixture_of_ggx),
         cmocka_unit_test(integer_gammas_have_their_closed_forms),
         cmocka_unit_test(published_masking_is_the_papers_spline),
-        cmocka_unit_test(tail_is_drawn_in_its_shares),
+        cmocka_unit_test(tails_lines_have_their_shares),
     };
     return cmocka_run_group_tests_name("gtr_masking", tests, NULL, NULL);
 }
