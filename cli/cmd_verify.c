@@ -10,6 +10,7 @@
 #include "cli/json_writer.h"
 #include "cli/plugin_host.h"
 #include "cli/report.h"
+#include "io/merl.h"
 #include "verify/verify.h"
 
 enum { MOST_OPERANDS = 33, MOST_CASES = 128 };
@@ -350,6 +351,41 @@ static int verify_materials(const settings *s, const case_list *list)
     return conclude(&v);
 }
 
+static void eval_measured(const void *self, const double wi[3], const double wo[3], double f[3])
+{
+    merl_eval(self, wi, wo, f);
+}
+
+/* The path in "merl file=PATH", NULL if the material is another. */
+static const char *measured_path(const char *spec)
+{
+    static const char form[] = "merl file=";
+    return strncmp(spec, form, strlen(form)) == 0 ? spec + strlen(form) : NULL;
+}
+
+static int verify_measured(const settings *s, const char *path)
+{
+    merl m;
+    facet_error why = {0};
+    if (merl_read(path, &m, &why)) return fail_with(FROM_INPUT, path, &why);
+    const verify_subject subject = {
+        .self = &m,
+        .claims = FACET_CLAIMS_RECIPROCAL | FACET_CLAIMS_PASSIVE | FACET_CLAIMS_ISOTROPIC,
+        .eval = eval_measured,
+    };
+    case_list *list = calloc(1, sizeof *list);
+    if (!list) {
+        merl_free(&m);
+        return fail_memory();
+    }
+    add_case(list, s->operands[0]);
+    verdicts v = begin(s, list->n);
+    verify_one(&v, &list->items[0], &subject, NULL);
+    free(list);
+    merl_free(&m);
+    return conclude(&v);
+}
+
 static int verify_plugin(void *context, plugin_watch *watch)
 {
     const settings *s = context;
@@ -403,6 +439,8 @@ const command verify_command = {
         "test of the sampler, and weight = f cos/pdf.  A check that fails names the view, the numbers and the command\n"
         "that shows it again.\n"
         "\n"
+        "SPEC may be `merl file=FILE.binary`, a measured BRDF of the MERL database.\n"
+        "\n"
         "A plugin runs in a process of its own, which may crash or hang: then the exit status is 3.\n",
     .examples = "  facet verify ggx\n"
                 "  facet verify 'gtr alpha=.1 gamma=1.5 masking=published' --check weak-furnace\n"
@@ -423,6 +461,7 @@ static int run(int argc, char **argv)
     if (s.all ? s.n_operands > 0 : s.n_operands != 1)
         return fail(EXIT_USAGE, NULL, s.all ? "--all" : "SPEC", "%s",
                     s.all ? "takes no material" : "one material is needed, in quotes; or --all, or --plugin FILE.so");
+    if (!s.all && measured_path(s.operands[0])) return verify_measured(&s, measured_path(s.operands[0]));
     case_list *list = calloc(1, sizeof *list);
     if (!list) return fail_memory();
     if (s.all) {

@@ -121,6 +121,15 @@ static void plugins_that_fail_end_with_a_line(void **state)
     expect(RUN("--plugin", "text.so"), 3, "", "is no shared library");
 }
 
+static void measurements_are_of_their_format(void **state)
+{
+    (void)state;
+    write_text(in_folder(folder, "text.binary"), "no measurements\n");
+    expect(RUN("merl file=text.binary"), 3, "", "text.binary:byte 0: its sizes are");
+    expect(RUN("merl file=absent.binary"), 3, "", "absent.binary");
+    expect(RUN("merl"), 2, "", "merl");
+}
+
 static void materials_are_verified(void **state)
 {
     (void)state;
@@ -143,6 +152,7 @@ int main(void)
         cmocka_unit_test(the_rest_of_a_mistaken_model_holds),
         cmocka_unit_test(the_example_holds),
         cmocka_unit_test(plugins_that_fail_end_with_a_line),
+        cmocka_unit_test(measurements_are_of_their_format),
         cmocka_unit_test(materials_are_verified),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
