@@ -11,12 +11,13 @@
 #include "cli/plugin_host.h"
 #include "cli/report.h"
 #include "io/merl.h"
+#include "verify/search.h"
 #include "verify/verify.h"
 
 enum { MOST_OPERANDS = 33, MOST_CASES = 128 };
 
 typedef struct settings {
-    bool all, json, fixed;
+    bool all, json, fixed, search;
     const char *plugin, *check;
     uint64_t samples, seed;
     option_number patience;
@@ -351,6 +352,70 @@ static int verify_materials(const settings *s, const case_list *list)
     return conclude(&v);
 }
 
+/* ---- The search for the largest errors --------------------------------------------------------- */
+
+enum { SEARCH_EVALUATIONS = 20000 };
+
+/* The distribution's own parameters, as far as the material leaves them open, over their whole range. */
+static int searched_parameters(const facet_material *m, search_parameter parameters[SEARCH_PARAMETERS])
+{
+    static const char *const names[] = {"alpha", "gamma", "exponent"};
+    const facet_model_info *model = facet_model_get(m->model);
+    int n = 0;
+    for (size_t i = 0; i < model->n_parameters; i++)
+        for (size_t k = 0; k < sizeof names/sizeof *names; k++) {
+            const facet_parameter *p = &model->parameters[i];
+            if (strcmp(p->name, names[k]) != 0 || m->given >> i & 1 || n == SEARCH_PARAMETERS) continue;
+            parameters[n++] = (search_parameter){p->name, fmax(p->low, 1e-8*p->high), p->high};
+        }
+    return n;
+}
+
+static void write_worst(json_writer *j, const search_result *r, const search_parameter *parameters, int n,
+                        search_term term)
+{
+    const double m[3] = {(double)r->m[0], (double)r->m[1], (double)r->m[2]};
+    json_put_open(j, NULL, '{');
+    json_put_text(j, "term", search_names[term]);
+    json_put_text(j, "error_is", term == SEARCH_G1 ? "absolute" : "relative");
+    json_put_number(j, "error", r->error);
+    json_put_number(j, "single", r->found);
+    json_put_number(j, "double", r->truth);
+    for (int i = 0; i < n; i++) json_put_number(j, parameters[i].name, r->values[i]);
+    json_put_numbers(j, "m", m, 3);
+    json_put_close(j, '}');
+}
+
+static int search_material(const settings *s)
+{
+    facet_material m;
+    search_parameter parameters[SEARCH_PARAMETERS];
+    const int status = read_material(s->operands[0], "SPEC", &m);
+    if (status) return status;
+    const int n = searched_parameters(&m, parameters);
+    json_writer j = json_put_start(stdout);
+    if (s->json) json_put_open(&j, NULL, '[');
+    else printf("largest errors of single precision found, of values above 1e-30\n");
+    for (int term = 0; term < SEARCH_TERMS && stdout_is_good(); term++) {
+        const search_result r = search_worst(&m, parameters, n, (search_term)term, SEARCH_EVALUATIONS, s->seed);
+        if (s->json) {
+            write_worst(&j, &r, parameters, n, (search_term)term);
+            continue;
+        }
+        printf("  %-7s %-9.3g %s: %.9g, in double %.9g, at", search_names[term], r.error,
+               term == SEARCH_G1 ? "absolute" : "relative", r.found, r.truth);
+        for (int i = 0; i < n; i++) printf(" %s=%.9g", parameters[i].name, r.values[i]);
+        printf(" m %.9g,%.9g,%.9g\n", (double)r.m[0], (double)r.m[1], (double)r.m[2]);
+    }
+    if (s->json) {
+        json_put_close(&j, ']');
+        putchar('\n');
+    }
+    return finish_stdout(0);
+}
+
+/* ---- Measurements and plugins ------------------------------------------------------------------ */
+
 static void eval_measured(const void *self, const double wi[3], const double wo[3], double f[3])
 {
     merl_eval(self, wi, wo, f);
@@ -417,6 +482,9 @@ static const option options[] = {
      "weight|efficiency"},
     {"fixed", 0, OPTION_FLAG, offsetof(settings, fixed), NULL,
      "the parameters as given and at their defaults, not over their ranges", 0, 0, NULL},
+    {"search", 0, OPTION_FLAG, offsetof(settings, search), NULL,
+     "hunt for the largest errors of D, Lambda and G1 in single precision instead, over what SPEC leaves open", 0, 0,
+     NULL},
     {"samples", 0, OPTION_INTEGER, offsetof(settings, samples), "N", "of each chi-square test (default 200000)", 10000,
      1e8, NULL},
     {"seed", 0, OPTION_INTEGER, offsetof(settings, seed), "N", "of all samples (default 1)", 0, 1e15, NULL},
@@ -444,6 +512,7 @@ const command verify_command = {
         "A plugin runs in a process of its own, which may crash or hang: then the exit status is 3.\n",
     .examples = "  facet verify ggx\n"
                 "  facet verify 'gtr alpha=.1 gamma=1.5 masking=published' --check weak-furnace\n"
+                "  facet verify gtr --search\n"
                 "  facet verify --plugin ./plugin_phong.so exponent=20\n",
     .options = options,
     .n_options = sizeof options/sizeof *options,
@@ -456,11 +525,15 @@ static int run(int argc, char **argv)
     int status = options_parse(&verify_command, argc, argv, &s, s.operands);
     if (status != PARSE_GO) return status;
     while (s.n_operands < MOST_OPERANDS && s.operands[s.n_operands]) s.n_operands++;
-    if (s.plugin && s.all) return fail(EXIT_USAGE, NULL, "--all", "does not go with --plugin");
+    if (s.plugin && (s.all || s.search))
+        return fail(EXIT_USAGE, NULL, s.all ? "--all" : "--search", "does not go with --plugin");
     if (s.plugin) return plugin_supervise(s.plugin, s.patience.value, verify_plugin, &s);
     if (s.all ? s.n_operands > 0 : s.n_operands != 1)
         return fail(EXIT_USAGE, NULL, s.all ? "--all" : "SPEC", "%s",
                     s.all ? "takes no material" : "one material is needed, in quotes; or --all, or --plugin FILE.so");
+    if (s.search && (s.all || measured_path(s.operands[0])))
+        return fail(EXIT_USAGE, NULL, "--search", "takes one material with a distribution of normals");
+    if (s.search) return search_material(&s);
     if (!s.all && measured_path(s.operands[0])) return verify_measured(&s, measured_path(s.operands[0]));
     case_list *list = calloc(1, sizeof *list);
     if (!list) return fail_memory();

@@ -128,16 +128,16 @@ static void gtr_drawn_D(const distribution *d, size_t n, facet_dirs m, float *D)
 {
     const gtr_shape g = d->gtr;
     float *restrict const out = D;
-    float power[BLOCK], ratio[BLOCK];
+    float exponent[BLOCK], ratio[BLOCK], e[BLOCK];
     EACH_OF(n)
     {
         const real2 base = gtr_base(gather(m, i), g);
-        power[i] = base.x;
+        exponent[i] = base.x;
         ratio[i] = base.y;
     }
-    EACH_OF(n) power[i] = klog_quick(power[i]);
-    EACH_OF(n) power[i] = kexp(-g.gamma*power[i]);
-    EACH_OF(n) out[i] = gtr_D_of(m.z[i], g, ratio[i], power[i]);
+    EACH_OF(n) exponent[i] = g.gamma*klog_quick(exponent[i]);
+    EACH_OF(n) e[i] = gtr_exp(exponent[i]);
+    EACH_OF(n) out[i] = gtr_D_of(m.z[i], g, ratio[i], exponent[i], e[i]);
 }
 
 static void gtr_disney_D_block(const gtr_shape *shape, size_t n, facet_dirs m, float *D)
@@ -145,6 +145,13 @@ static void gtr_disney_D_block(const gtr_shape *shape, size_t n, facet_dirs m, f
     const gtr_shape g = *shape;
     float *restrict const out = D;
     EACH_OF(n) out[i] = gtr_disney_D(gather(m, i), g);
+}
+
+/* gtr_A at x; count is a constant. */
+KERNEL void gtr_A_loop(gtr_shape g, size_t n, const float *x, float *A, int count)
+{
+    float *restrict const out = A;
+    EACH_OF(n) out[i] = gtr_A_by(g, x[i], count);
 }
 
 /* gtr_A at x, and its slope if that is not NULL. */
@@ -159,10 +166,10 @@ static void gtr_A_block(const gtr_shape *shape, size_t n, const float *x, float 
             out[i] = at.x;
             derivative[i] = at.y;
         }
-    } else if (g.count <= 8) EACH_OF(n) out[i] = gtr_A_by(g, x[i], 8);
-    else if (g.count <= 12) EACH_OF(n) out[i] = gtr_A_by(g, x[i], 12);
-    else if (g.count <= 16) EACH_OF(n) out[i] = gtr_A_by(g, x[i], 16);
-    else EACH_OF(n) out[i] = gtr_A(g, x[i]);
+    } else if (g.count <= 8) gtr_A_loop(g, n, x, A, 8);
+    else if (g.count <= 12) gtr_A_loop(g, n, x, A, 12);
+    else if (g.count <= 16) gtr_A_loop(g, n, x, A, 16);
+    else gtr_A_loop(g, n, x, A, GTR_TERMS);
 }
 
 /* 1/s towards n directions, and gtr_A from it for n numbers, which `x` holds and loses. */

@@ -27,6 +27,11 @@
 /* A power e^x of more than this is only ever used in ln(1 + u e^x), where u is a uniform number. */
 #define GTR_LARGEST_POWER 80.0f
 
+/* Beyond this exponent e^-x is taken as e^-24 e^(24 - x). */
+#define GTR_FAR       64.0f
+#define GTR_SHIFT     24.0f
+#define GTR_EXP_SHIFT ((real)3.7751345442790977e-11)
+
 /* gamma - 1 in place of 0: (e^((gamma - 1) x) - 1)/(gamma - 1) is x then, without a choice.  And alpha in place of 1,
  * where 1 - alpha^2 cancels from everything. */
 #define GTR_LEAST_EXCESS ((real)1e-16)
@@ -69,27 +74,33 @@ KERNEL real2 gtr_base(real3 m, gtr_shape g)
     return make2(1 + g.k0/(g.alpha*g.alpha)*(sin2*inv), dot3(m, m)*inv);
 }
 
+/* factor e^-x in two steps, e = gtr_exp(x) first, because e^-x alone would vanish before the product does. */
+KERNEL real gtr_exp(real x) { return kexp(x > GTR_FAR ? GTR_SHIFT - x : -x); }
+KERNEL real gtr_times(real factor, real x, real e) { return factor*e*(x > GTR_FAR ? GTR_EXP_SHIFT : (real)1); }
+
 /* D at the direction of m, 1/sr; m need not be a unit vector.  [disney, 1, 4, 8]:
  *     D = c/(1 + (alpha^2 - 1) cos^2)^gamma.
  * Departure: D = D(n) (1 + k0/alpha^2 sin^2)^-gamma with sin^2 from the vector, which neither overflows nor cancels.
- * The stretch divides the slopes and multiplies D by (cos_unstretched/cos)^4.  ratio, power: the second part of
- * gtr_base, and its first to the -gamma. */
-KERNEL real gtr_D_of(real cos, gtr_shape g, real ratio, real power)
+ * The stretch divides the slopes and multiplies D by (cos_unstretched/cos)^4.  ratio: the second part of gtr_base;
+ * exponent: gamma times the logarithm of the first. */
+KERNEL real gtr_D_of(real cos, gtr_shape g, real ratio, real exponent, real e)
 {
-    return cos > 0 ? g.peak*ratio*ratio*power : (real)0;
+    return cos > 0 ? gtr_times(g.peak*ratio*ratio, exponent, e) : (real)0;
 }
 
 KERNEL real gtr_D(real3 m, gtr_shape g)
 {
-    real2 base = gtr_base(m, g);
-    return gtr_D_of(m.z, g, base.y, kexp(-g.gamma*klog_quick(base.x)));
+    real2 base    = gtr_base(m, g);
+    real exponent = g.gamma*klog_quick(base.x);
+    return gtr_D_of(m.z, g, base.y, exponent, gtr_exp(exponent));
 }
 
 /* [disney, 10] with any exponent: the same core, tails not stretched. */
 KERNEL real gtr_disney_D(real3 m, gtr_shape g)
 {
-    real2 base = gtr_base(m, g);
-    return m.z > 0 ? g.disney_peak*kexp(-g.gamma*klog(base.x/base.y)) : (real)0;
+    real2 base    = gtr_base(m, g);
+    real exponent = g.gamma*klog(base.x/base.y);
+    return m.z > 0 ? gtr_times(g.disney_peak, exponent, gtr_exp(exponent)) : (real)0;
 }
 
 /* 1/s at a direction with these squares of the cosine and the sine, of any common scale. */

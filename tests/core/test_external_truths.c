@@ -20,8 +20,8 @@
 #include "facet/facet.h"
 #include "tests/any_bsdf.h"
 #include "tests/kernel_access.h"
-#include "verify/quadrature.h"
 #include "tests/table_file.h"
+#include "verify/quadrature.h"
 
 #define TWO_PI 6.283185307179586
 

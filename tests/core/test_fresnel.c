@@ -18,8 +18,8 @@
 #include "core/metals.h"
 #include "tests/any_bsdf.h"
 #include "tests/kernel_access.h"
-#include "verify/quadrature.h"
 #include "tests/table_file.h"
+#include "verify/quadrature.h"
 
 static const kernel_access *const builds[] = {&kernel_access_f32, &kernel_access_f64};
 

@@ -15,8 +15,8 @@
 #include "tests/draws.h"
 #include "tests/extremes.h"
 #include "tests/kernel_access.h"
-#include "verify/quadrature.h"
 #include "tests/weight_check.h"
+#include "verify/quadrature.h"
 
 #define PI 3.14159265358979323846
 #define STEP 0.125

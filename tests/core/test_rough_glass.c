@@ -16,8 +16,8 @@
 
 #include "tests/any_bsdf.h"
 #include "tests/draws.h"
-#include "verify/quadrature.h"
 #include "tests/weight_check.h"
+#include "verify/quadrature.h"
 
 #define PI 3.14159265358979323846
 

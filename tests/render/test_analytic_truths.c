@@ -13,8 +13,8 @@
 #include <cmocka.h>
 
 #include "tests/draws.h"
-#include "verify/quadrature.h"
 #include "tests/scene_builder.h"
+#include "verify/quadrature.h"
 
 static const double pi = 3.14159265358979323846;
 

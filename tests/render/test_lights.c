@@ -12,9 +12,9 @@
 #include <cmocka.h>
 
 #include "render/tracer.h"
-#include "verify/chi_square.h"
 #include "tests/draws.h"
 #include "tests/scene_builder.h"
+#include "verify/chi_square.h"
 
 static const double pi = 3.14159265358979323846;
 

@@ -13,8 +13,8 @@
 
 #include <cmocka.h>
 
-#include "verify/chi_square.h"
 #include "tests/scene_builder.h"
+#include "verify/chi_square.h"
 
 static sample_point point_of(const sampler *s, uint32_t x, uint32_t y, uint32_t index, uint32_t group)
 {

@@ -13,8 +13,8 @@
 
 #include <cmocka.h>
 
-#include "verify/chi_square.h"
 #include "tests/scene_builder.h"
+#include "verify/chi_square.h"
 
 enum { SIZE = 32, BLOCKS = 4, SIDE = SIZE/BLOCKS };
 
