@@ -189,6 +189,9 @@ int plugin_supervise(const char *path, double patience, int (*work)(void *contex
     const pid_t child = fork();
     if (child < 0) return fail(EXIT_WORLD, path, NULL, "no process for the plugin: %s", strerror(errno));
     if (child == 0) {
+        /* A crash ends the process, whatever else was to report it: the parent does. */
+        static const int crashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
+        for (size_t i = 0; i < sizeof crashes/sizeof *crashes; i++) signal(crashes[i], SIG_DFL);
         const int status = work(context, watch);
         fflush(NULL);
         _exit(status);
