@@ -29,7 +29,8 @@ static const char *fault_of(const facet_plugin *m, const char **place)
     if (!m->name || !*m->name || !m->summary) return "it has no name, or no summary";
     if (!m->eval) return "it has no eval";
     if (!m->pdf != !m->sample) return "it has one of pdf and sample; a sampler needs both";
-    if (m->parameter_count < 0 || m->parameter_count > PLUGIN_PARAMETERS) return "it has more than 32 parameters";
+    if (m->parameter_count < 0 || m->parameter_count > PLUGIN_PARAMETERS)
+        return "its number of parameters is not from 0 to 32";
     if (m->parameter_count > 0 && !m->parameters) return "its table of parameters is NULL";
     for (int i = 0; i < m->parameter_count; i++) {
         const facet_plugin_parameter *p = &m->parameters[i];
@@ -218,6 +219,7 @@ int plugin_supervise(const char *path, double patience, int (*work)(void *contex
     if (is_killed)
         return fail(EXIT_INPUT, path, NULL, "the plugin has not returned for %g s %s; --patience gives it longer",
                     patience, where);
-    return fail(EXIT_INPUT, path, NULL, "the plugin was ended by signal %d (%s) %s", WTERMSIG(status),
+    return fail(EXIT_INPUT, path, NULL,
+                "the plugin was ended by signal %d (%s) %s; run it alone under a debugger there", WTERMSIG(status),
                 strsignal(WTERMSIG(status)), where);
 }

@@ -223,6 +223,24 @@ static void float_agrees_with_double(void **state)
     print_message("  largest relative difference of float and double: %.2g\n", worst);
 }
 
+/* facet_bsdf_D is the D of facet_bsdf_terms, to the last bit, in both builds. */
+static void D_alone_is_that_of_the_terms(void **state)
+{
+    (void)state;
+    for (int i = 0; i < N_SPECS; i++) {
+        const any_bsdf bsdf = any_bsdf_of(specs[i], 1);
+        const facet_bsdf single = single_bsdf_of(specs[i]);
+        draws random = {(uint64_t)(200 + i)};
+        for (int n = 0; n < 20; n++) {
+            double m[3];
+            draw_float_direction(&random, m);
+            const float rounded[3] = {(float)m[0], (float)m[1], (float)m[2]};
+            assert_true(facet_bsdf64_D(&bsdf.twice, m) == facet_bsdf64_terms(&bsdf.twice, m).D);
+            assert_true(facet_bsdf_D(&single, rounded) == facet_bsdf_terms(&single, rounded).D);
+        }
+    }
+}
+
 /* Every sample's lobe is one that the material announces, and each announced one occurs. */
 static void lobes_are_those_of_the_samples(void **state)
 {
@@ -287,6 +305,7 @@ int main(void)
         cmocka_unit_test(eval_is_reciprocal),
         cmocka_unit_test(visible_normals_never_weigh_more_than_one),
         cmocka_unit_test(float_agrees_with_double),
+        cmocka_unit_test(D_alone_is_that_of_the_terms),
         cmocka_unit_test(lobes_are_those_of_the_samples),
         cmocka_unit_test(materials_straight_from_values_are_the_same),
     };

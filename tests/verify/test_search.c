@@ -54,16 +54,17 @@ static void errors_are_those_that_are_stated(void **state)
         }
 }
 
-/* Climbing from few points gets as far as many points do. */
+/* Climbing from few points gets nearly as far as many points do: Beckmann's D is worst in one corner, where 50 points
+ * alone find a fifth of it. */
 static void the_climb_reaches_the_top(void **state)
 {
     (void)state;
     static const search_parameter alpha[] = {{"alpha", 1e-4, 4}};
     facet_material material;
-    assert_int_equal(facet_material_parse("ggx", &material, NULL), FACET_OK);
-    const double few = search_worst(&material, alpha, 1, SEARCH_LAMBDA, 50, 3).error;
-    const double many = search_worst(&material, alpha, 1, SEARCH_LAMBDA, 50000, 3).error;
-    assert_true(few >= 0.5*many);
+    assert_int_equal(facet_material_parse("beckmann", &material, NULL), FACET_OK);
+    const double few = search_worst(&material, alpha, 1, SEARCH_D, 50, 3).error;
+    const double many = search_worst(&material, alpha, 1, SEARCH_D, 20000, 3).error;
+    assert_true(few >= 0.7*many);
 }
 
 int main(void)
