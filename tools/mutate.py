@@ -235,7 +235,8 @@ class Build:
             self.flags[name] = self.simplified(words)
         self.core = [n for n in sorted(self.flags) if os.path.dirname(n) == "core" and not VARIANT.search(n)]
         self.access = [n for n in sorted(self.flags) if re.fullmatch(r"tests/kernel_access\w*\.c", n)]
-        self.support = [n for n in sorted(self.flags) if os.path.dirname(n) == "tests" and n not in self.access]
+        self.support = [n for n in sorted(self.flags)
+                        if os.path.dirname(n) in ("tests", "verify") and n not in self.access]
         self.tests = [n for n in sorted(self.flags) if re.fullmatch(r"tests/core/test_\w+\.c", n)]
         if not self.core or not self.tests:
             raise Failure(f"{folder}: has no core or no tests; configure with FACET_TESTS=ON and without sanitizers")
@@ -279,7 +280,7 @@ class Workshop:
         self.build, self.folder = build, folder
         self.base, self.new = os.path.join(folder, "base"), os.path.join(folder, "new")
         os.makedirs(self.base)
-        for part in ("include", "core", "tests"):
+        for part in ("include", "core", "verify", "tests"):
             shutil.copytree(os.path.join(build.root, part), os.path.join(folder, part),
                             ignore=shutil.ignore_patterns("data", "corpus", "*.csv"))
         self.depends = {}
