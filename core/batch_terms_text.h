@@ -124,20 +124,27 @@ MORE_NDF_LOOPS(phong, NDF_PHONG)
 VISIBLE_LOOPS(phong, NDF_PHONG)
 MORE_NDF_LOOPS(gtr, NDF_GTR)
 
-static void gtr_drawn_D(const distribution *d, size_t n, facet_dirs m, float *D)
+/* A loop with the shape g known to be isotropic is compiled for itself: it takes less of the directions. */
+#define WITH_ISOTROPY(loop, g, ...) ((g).is_isotropic ? loop(g, 1, __VA_ARGS__) : loop(g, 0, __VA_ARGS__))
+
+KERNEL void gtr_drawn_D_loop(gtr_shape g, int is_isotropic, size_t n, facet_dirs m, float *D)
 {
-    const gtr_shape g = d->gtr;
+    g.is_isotropic = is_isotropic;
     float *restrict const out = D;
-    float exponent[BLOCK], ratio[BLOCK], e[BLOCK];
+    float exponent[BLOCK], ratio[BLOCK];
     EACH_OF(n)
     {
         const real2 base = gtr_base(gather(m, i), g);
         exponent[i] = base.x;
-        ratio[i] = base.y;
+        if (!is_isotropic) ratio[i] = base.y;
     }
     EACH_OF(n) exponent[i] = g.gamma*klog_quick(exponent[i]);
-    EACH_OF(n) e[i] = gtr_exp(exponent[i]);
-    EACH_OF(n) out[i] = gtr_D_of(m.z[i], g, ratio[i], exponent[i], e[i]);
+    EACH_OF(n) out[i] = gtr_D_of(m.z[i], g, is_isotropic ? 1 : ratio[i], exponent[i]);
+}
+
+static void gtr_drawn_D(const distribution *d, size_t n, facet_dirs m, float *D)
+{
+    WITH_ISOTROPY(gtr_drawn_D_loop, d->gtr, n, m, D);
 }
 
 static void gtr_disney_D_block(const gtr_shape *shape, size_t n, facet_dirs m, float *D)
@@ -173,15 +180,16 @@ static void gtr_A_block(const gtr_shape *shape, size_t n, const float *x, float 
 }
 
 /* 1/s towards n directions, and gtr_A from it for n numbers, which `x` holds and loses. */
+KERNEL void gtr_inverses_loop(gtr_shape g, int is_isotropic, size_t n, facet_dirs v, float *x)
+{
+    g.is_isotropic = is_isotropic;
+    float *restrict const out = x;
+    EACH_OF(n) out[i] = gtr_inverse_s_towards(gather(v, i), g);
+}
+
 static void gtr_inverses(const gtr_shape *shape, size_t n, facet_dirs v, float *x)
 {
-    const gtr_shape g = *shape;
-    float *restrict const out = x;
-    EACH_OF(n)
-    {
-        const real3 w = gtr_unstretch_direction(g, gather(v, i));
-        out[i] = gtr_inverse_s(g, w.z*w.z, w.x*w.x + w.y*w.y);
-    }
+    WITH_ISOTROPY(gtr_inverses_loop, *shape, n, v, x);
 }
 
 static void gtr_A_of(const gtr_shape *shape, size_t n, float *x, float *A)
@@ -191,11 +199,16 @@ static void gtr_A_of(const gtr_shape *shape, size_t n, float *x, float *A)
     gtr_A_block(shape, n, x, A, NULL);
 }
 
-static void gtr_sigma_with(const gtr_shape *shape, size_t n, facet_dirs v, const float *A, float *sigma)
+KERNEL void gtr_sigma_loop(gtr_shape g, int is_isotropic, size_t n, facet_dirs v, const float *A, float *sigma)
 {
-    const gtr_shape g = *shape;
+    g.is_isotropic = is_isotropic;
     float *restrict const out = sigma;
     EACH_OF(n) out[i] = gtr_sigma_of(gather(v, i), g, A[i]);
+}
+
+static void gtr_sigma_with(const gtr_shape *shape, size_t n, facet_dirs v, const float *A, float *sigma)
+{
+    WITH_ISOTROPY(gtr_sigma_loop, *shape, n, v, A, sigma);
 }
 
 static void gtr_exact_sigma(const distribution *d, size_t n, facet_dirs v, float *sigma)

@@ -84,23 +84,6 @@ facet_status NAME(prepare)(const facet_material *material, STORAGE *bsdf, facet_
     {                                                                                                                  \
         return public_sample(name##_sample(name##_fix(p->of.name, v), load3(wo), load3(u)));                           \
     }
-#define EVAL_CASE(name, v)                                                                                             \
-    case v: {                                                                                                          \
-        name##_eval_##v(p, wi, wo, f);                                                                                 \
-        break;                                                                                                         \
-    }
-#define PDF_CASE(name, v)                                                                                              \
-    case v: {                                                                                                          \
-        return name##_pdf_##v(p, wi, wo);                                                                              \
-    }
-#define EVAL_PDF_CASE(name, v)                                                                                         \
-    case v: {                                                                                                          \
-        return name##_eval_pdf_##v(p, wi, wo, f);                                                                      \
-    }
-#define SAMPLE_CASE(name, v)                                                                                           \
-    case v: {                                                                                                          \
-        return name##_sample_##v(p, wo, u);                                                                            \
-    }
 #define VERB_ROWS(name) EACH_VARIANT_##name(VARIANT_VERBS, name)
 
 static SAMPLE public_sample(bsdf_sample s)
@@ -114,63 +97,44 @@ static SAMPLE public_sample(bsdf_sample s)
 
 FACET_KERNELS(VERB_ROWS)
 
+typedef struct verbs {
+    void (*eval)(const prepared *p, const real wi[3], const real wo[3], real f[3]);
+    real (*pdf)(const prepared *p, const real wi[3], const real wo[3]);
+    real (*eval_pdf)(const prepared *p, const real wi[3], const real wo[3], real f[3]);
+    SAMPLE (*sample)(const prepared *p, const real wo[3], const real u[3]);
+} verbs;
+
+#define TABLE_ENTRY(name, v) [v] = {name##_eval_##v, name##_pdf_##v, name##_eval_pdf_##v, name##_sample_##v},
+#define TABLE_ROW(name) [KERNEL_##name] = {EACH_VARIANT_##name(TABLE_ENTRY, name)},
+static const verbs verbs_of[KERNEL_COUNT][MICROFACET_VARIANTS] = {FACET_KERNELS(TABLE_ROW)};
+
+static const verbs *verbs_for(const prepared *p)
+{
+    return &verbs_of[p->kernel][p->variant];
+}
+
 void NAME(eval)(const STORAGE *bsdf, const real wi[3], const real wo[3], real f[3])
 {
     const prepared *p = content(bsdf);
-    switch (p->kernel) {
-#define EVAL_ROW(name)                                                                                                 \
-    case KERNEL_##name:                                                                                                \
-        switch (p->variant) {                                                                                          \
-            EACH_VARIANT_##name(EVAL_CASE, name)                                                                       \
-        }                                                                                                              \
-        break;
-        FACET_KERNELS(EVAL_ROW)
-    }
+    verbs_for(p)->eval(p, wi, wo, f);
 }
 
 real NAME(pdf)(const STORAGE *bsdf, const real wi[3], const real wo[3])
 {
     const prepared *p = content(bsdf);
-    switch (p->kernel) {
-#define PDF_ROW(name)                                                                                                  \
-    case KERNEL_##name:                                                                                                \
-        switch (p->variant) {                                                                                          \
-            EACH_VARIANT_##name(PDF_CASE, name)                                                                        \
-        }                                                                                                              \
-        break;
-        FACET_KERNELS(PDF_ROW)
-    }
-    return 0;
+    return verbs_for(p)->pdf(p, wi, wo);
 }
 
 real NAME(eval_pdf)(const STORAGE *bsdf, const real wi[3], const real wo[3], real f[3])
 {
     const prepared *p = content(bsdf);
-    switch (p->kernel) {
-#define EVAL_PDF_ROW(name)                                                                                             \
-    case KERNEL_##name:                                                                                                \
-        switch (p->variant) {                                                                                          \
-            EACH_VARIANT_##name(EVAL_PDF_CASE, name)                                                                   \
-        }                                                                                                              \
-        break;
-        FACET_KERNELS(EVAL_PDF_ROW)
-    }
-    return 0;
+    return verbs_for(p)->eval_pdf(p, wi, wo, f);
 }
 
 SAMPLE NAME(sample)(const STORAGE *bsdf, const real wo[3], const real u[3])
 {
     const prepared *p = content(bsdf);
-    switch (p->kernel) {
-#define SAMPLE_ROW(name)                                                                                               \
-    case KERNEL_##name:                                                                                                \
-        switch (p->variant) {                                                                                          \
-            EACH_VARIANT_##name(SAMPLE_CASE, name)                                                                     \
-        }                                                                                                              \
-        break;
-        FACET_KERNELS(SAMPLE_ROW)
-    }
-    return (SAMPLE){.pdf = 0};
+    return verbs_for(p)->sample(p, wo, u);
 }
 
 TERMS NAME(terms)(const STORAGE *bsdf, const real m[3])

@@ -16,10 +16,7 @@
 #include "real.h"
 
 /* Schlick's approximation, F0 + (F90 - F0)(1 - c)^5, c = |wi.wm| in [0,1].  [cs500, F(d)], where F90 = 1. */
-KERNEL real3 fresnel_schlick(real3 F0, real3 F90, real c)
-{
-    return add3(F0, scale3(kpow5(kmax(1 - c, 0)), sub3(F90, F0)));
-}
+KERNEL real3 fresnel_schlick(real3 F0, real3 F90, real c) { return add3(F0, scale3(kpow5(1 - c), sub3(F90, F0))); }
 
 /* Unpolarised reflectance of a dielectric interface; c = |w.wm| in [0,1] on the side of the light,
  * eta = n_t/n_i.  [cs500, "exact formulation"].  Departures: total internal reflection gives 1 where the

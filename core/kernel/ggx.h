@@ -13,15 +13,16 @@
 #include "slopes.h"
 
 /* D at the direction of m, 1/sr; m need not be a unit vector.  [bonn, D_AnGGX].
- * Departure: in terms of the vector's components, because near the normal sin^2 cannot be had from the rounded
- * cosine. */
+ * Departures: in terms of the vector's components, because near the normal sin^2 cannot be had from the rounded cosine;
+ * and multiplied out with alpha_x alpha_y, so that only q is a quotient. */
 KERNEL real ggx_D(real3 m, real alpha_x, real alpha_y)
 {
-    real len2 = dot3(m, m);
-    real x    = m.x*(1/alpha_x);
-    real y    = m.y*(1/alpha_y);
-    real t    = x*x + y*y + m.z*m.z;
-    return m.z > 0 ? len2*len2/((PI*alpha_x*alpha_y)*(t*t)) : (real)0;
+    real area = alpha_x*alpha_y;
+    real x    = m.x*alpha_y;
+    real y    = m.y*alpha_x;
+    real z    = m.z*area;
+    real q    = dot3(m, m)*area/(x*x + y*y + z*z);
+    return m.z > 0 ? INV_PI*area*(q*q) : (real)0;
 }
 
 /* |(alpha_x v.x, alpha_y v.y, v.z)|, the root in [bonn, V_AnSmithJointGGX]: cos (1 + 2 Lambda). */

@@ -27,11 +27,6 @@
 /* A power e^x of more than this is only ever used in ln(1 + u e^x), where u is a uniform number. */
 #define GTR_LARGEST_POWER 80.0f
 
-/* Beyond this exponent e^-x is taken as e^-24 e^(24 - x). */
-#define GTR_FAR       64.0f
-#define GTR_SHIFT     24.0f
-#define GTR_EXP_SHIFT ((real)3.7751345442790977e-11)
-
 /* gamma - 1 in place of 0: (e^((gamma - 1) x) - 1)/(gamma - 1) is x then, without a choice.  And alpha in place of 1,
  * where 1 - alpha^2 cancels from everything. */
 #define GTR_LEAST_EXCESS ((real)1e-16)
@@ -41,6 +36,7 @@ typedef struct gtr_shape {
     int form;                  /* GTR_LOGARITHM, GTR_QUOTIENT */
     int count;                 /* terms that are not 0; a multiple of 4 */
     int anisotropy;            /* GTR_STRETCHED, GTR_DISNEY */
+    int is_isotropic;          /* whether nothing is stretched */
     real alpha, gamma;         /* of the isotropic GTR before the stretch */
     real stretch_x, stretch_y; /* their product is 1 */
     real excess;               /* gamma - 1, but not 0 */
@@ -69,30 +65,25 @@ KERNEL real2 gtr_base(real3 m, gtr_shape g)
 {
     real x    = m.x*g.stretch_y;
     real y    = m.y*g.stretch_x;
-    real sin2 = x*x + y*y;
+    real sin2 = g.is_isotropic ? m.x*m.x + m.y*m.y : x*x + y*y;
     real inv  = 1/kmax(sin2 + m.z*m.z, REAL_MIN);
-    return make2(1 + g.k0/(g.alpha*g.alpha)*(sin2*inv), dot3(m, m)*inv);
+    return make2(1 + g.k0/(g.alpha*g.alpha)*(sin2*inv), g.is_isotropic ? (real)1 : dot3(m, m)*inv);
 }
-
-/* factor e^-x in two steps, e = gtr_exp(x) first, because e^-x alone would vanish before the product does. */
-KERNEL real gtr_exp(real x) { return kexp(x > GTR_FAR ? GTR_SHIFT - x : -x); }
-KERNEL real gtr_times(real factor, real x, real e) { return factor*e*(x > GTR_FAR ? GTR_EXP_SHIFT : (real)1); }
 
 /* D at the direction of m, 1/sr; m need not be a unit vector.  [disney, 1, 4, 8]:
  *     D = c/(1 + (alpha^2 - 1) cos^2)^gamma.
  * Departure: D = D(n) (1 + k0/alpha^2 sin^2)^-gamma with sin^2 from the vector, which neither overflows nor cancels.
  * The stretch divides the slopes and multiplies D by (cos_unstretched/cos)^4.  ratio: the second part of gtr_base;
  * exponent: gamma times the logarithm of the first. */
-KERNEL real gtr_D_of(real cos, gtr_shape g, real ratio, real exponent, real e)
+KERNEL real gtr_D_of(real cos, gtr_shape g, real ratio, real exponent)
 {
-    return cos > 0 ? gtr_times(g.peak*ratio*ratio, exponent, e) : (real)0;
+    return cos > 0 ? kexp_fall(g.peak*ratio*ratio, exponent) : (real)0;
 }
 
 KERNEL real gtr_D(real3 m, gtr_shape g)
 {
-    real2 base    = gtr_base(m, g);
-    real exponent = g.gamma*klog_quick(base.x);
-    return gtr_D_of(m.z, g, base.y, exponent, gtr_exp(exponent));
+    real2 base = gtr_base(m, g);
+    return gtr_D_of(m.z, g, base.y, g.gamma*klog_quick(base.x));
 }
 
 /* [disney, 10] with any exponent: the same core, tails not stretched. */
@@ -100,7 +91,7 @@ KERNEL real gtr_disney_D(real3 m, gtr_shape g)
 {
     real2 base    = gtr_base(m, g);
     real exponent = g.gamma*klog(base.x/base.y);
-    return m.z > 0 ? gtr_times(g.disney_peak, exponent, gtr_exp(exponent)) : (real)0;
+    return m.z > 0 ? kexp_fall(g.disney_peak, exponent) : (real)0;
 }
 
 /* 1/s at a direction with these squares of the cosine and the sine, of any common scale. */
@@ -182,18 +173,26 @@ KERNEL real gtr_A_slope(gtr_shape g, real slope, real inverse)
     return -g.scale*slope*(g.form == GTR_LOGARITHM ? (real)1 : inverse);
 }
 
-/* The polynomial's variable at a direction. */
-KERNEL real gtr_variable_at(real3 v, gtr_shape g)
+/* The same at the direction v, a unit vector. */
+KERNEL real gtr_inverse_s_towards(real3 v, gtr_shape g)
 {
-    real3 w = gtr_unstretch_direction(g, v);
-    return gtr_variable(g, gtr_inverse_s(g, w.z*w.z, w.x*w.x + w.y*w.y));
+    real3 w          = gtr_unstretch_direction(g, v);
+    real cos2        = v.z*v.z;
+    real stretched   = gtr_inverse_s(g, cos2, w.x*w.x + w.y*w.y);
+    real unstretched = 1/(g.alpha*g.alpha + g.k0*cos2);
+    return g.is_isotropic ? unstretched : stretched;
 }
+
+/* The polynomial's variable there. */
+KERNEL real gtr_variable_at(real3 v, gtr_shape g) { return gtr_variable(g, gtr_inverse_s_towards(v, g)); }
 
 /* The projected area of the microfacets that face v, cos (1 + Lambda); v.z > 0. */
 KERNEL real gtr_sigma_of(real3 v, gtr_shape g, real A)
 {
-    real3 w = gtr_unstretch_direction(g, v);
-    return 0.5f*(w.z + ksqrt(w.z*w.z + A*(w.x*w.x + w.y*w.y)));
+    real3 w   = gtr_unstretch_direction(g, v);
+    real cos2 = v.z*v.z;
+    real sin2 = g.is_isotropic ? 1 - cos2 : w.x*w.x + w.y*w.y;
+    return 0.5f*(v.z + ksqrt(cos2 + A*sin2));
 }
 
 KERNEL real gtr_sigma(real3 v, gtr_shape g) { return gtr_sigma_of(v, g, gtr_A(g, gtr_variable_at(v, g))); }

@@ -16,7 +16,7 @@
 #include "gtr.h"
 
 #define GTR_LINE_STEPS (FACET_REAL_IS_DOUBLE ? 8 : 2)
-#define GTR_TRIALS     128 /* each succeeds with a probability of a third at least, of 0.55 on average */
+#define GTR_TRIALS     128 /* each succeeds with a probability of 0.3 at least, of 0.55 on average */
 
 /* Y = -ln s at tan^2(theta) = t0/t1, to relative accuracy where s is near 1. */
 KERNEL real gtr_minus_log_s(gtr_shape g, real t0, real t1)

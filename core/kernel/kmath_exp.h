@@ -7,6 +7,8 @@
 /* 2^n of an integral n in [-126, 127] / [-1022, 1023]; exact */
 KERNEL real two_to(real n) { return real_of((round_to_integer(n).low << FRACTION_BITS) + ONE_BITS); }
 
+#define TWO_TO_MINUS_64 ((real)5.42101086242752217e-20)
+
 /* exp(a + b) for |b| <= 2^-20 |a|.  With n = round(a/ln 2) and r = a + b - n ln 2 it is 2^n (1 + r + r^2 q(r));
  * adding n to the exponent multiplies by 2^n, rightly for every result that is a normal number. */
 KERNEL real exp_of_sum(real a, real b)
@@ -23,6 +25,19 @@ KERNEL real exp_of_sum(real a, real b)
 /* e^x (1.0 / 1.0 ulp).  Below EXP_LOWEST = ln REAL_MIN, -87.33 / -708.39, the result is 0; above EXP_HIGHEST =
  * ln REAL_MAX, 88.72 / 709.78, it is REAL_MAX, which keeps 0*e^x from becoming NaN.  kexp(0) = 1. */
 KERNEL real kexp(real x) { return exp_of_sum(x, 0.0f); }
+
+/* factor e^-x (1.5 / 1.5 ulp), x >= 0, factor in [2^-60, 2^60], where e^-x alone would vanish before the product does:
+ * found as (2^-64 factor) (2^64 e^-x), and 0 from where the second is. */
+KERNEL real kexp_fall(real factor, real x)
+{
+    real_integer power = round_to_integer(-x*INV_LN_TWO);
+    real n             = power.n;
+    real r             = (-x - n*LN_TWO_HIGH) - n*LN_TWO_LOW;
+    real m             = 1.0f + (r + r*r*poly_exp(r));
+    real e             = real_of(bits_of(m) + ((power.low + 64u) << FRACTION_BITS));
+    real product       = factor*TWO_TO_MINUS_64*e;
+    return x < 44.0f - EXP_LOWEST ? product : 0.0f; /* 64 ln 2 > 44 */
+}
 
 /* exp(-x^2) (1.2 / 1.2 ulp); 0 for |x| > 9.34 / 26.6.  The rounding error of x^2 would grow
  * to x^2/2 ulp of the result; it is carried along instead. */

@@ -288,6 +288,8 @@ KERNEL real3 microfacet_terms(microfacet_params p, real3 m)
 #define MICROFACET_BOUNDED 8 /* ggx as PURE, with bounded normals */
 #define MICROFACET_GROUPS  9
 
+#define MICROFACET_VARIANTS (2*MICROFACET_GROUPS - 1) /* more than any other kernel has */
+
 KERNEL int microfacet_variant(microfacet_params p)
 {
     int is_metal     = p.F.kind == FRESNEL_CONDUCTOR;

@@ -18,17 +18,18 @@ typedef struct microfacet_lane {
 KERNEL gtr_shape gtr_elementary_shape(real alpha_x, real alpha_y, real gamma)
 {
     gtr_shape g;
-    real alpha   = kmin(ksqrt(alpha_x*alpha_y), GTR_ROUGHEST);
-    g.anisotropy = GTR_STRETCHED;
-    g.alpha      = alpha;
-    g.gamma      = gamma;
-    g.stretch_x  = alpha_x/alpha;
-    g.stretch_y  = alpha_y/alpha;
-    g.excess     = gtr_excess(gamma);
-    g.log_range  = -2*klog(alpha);
-    g.k0         = (1 - alpha)*(1 + alpha);
-    g.survival   = 1/kexpm1(-g.excess*g.log_range);
-    g.peak       = -INV_PI*g.excess*g.survival*(g.k0/(alpha*alpha));
+    real alpha     = kmin(ksqrt(alpha_x*alpha_y), GTR_ROUGHEST);
+    g.anisotropy   = GTR_STRETCHED;
+    g.is_isotropic = 0;
+    g.alpha        = alpha;
+    g.gamma        = gamma;
+    g.stretch_x    = alpha_x/alpha;
+    g.stretch_y    = alpha_y/alpha;
+    g.excess       = gtr_excess(gamma);
+    g.log_range    = -2*klog(alpha);
+    g.k0           = (1 - alpha)*(1 + alpha);
+    g.survival     = 1/kexpm1(-g.excess*g.log_range);
+    g.peak         = -INV_PI*g.excess*g.survival*(g.k0/(alpha*alpha));
     return g; /* cppcheck-suppress uninitvar */
 }
 

@@ -58,6 +58,7 @@ static inline gtr_shape gtr_shape_of(real alpha_x, real alpha_y, real gamma, int
     gtr_shape g = {.anisotropy = GTR_STRETCHED, .alpha = alpha, .gamma = gamma, .excess = gtr_excess(gamma)};
     g.stretch_x = x/alpha;
     g.stretch_y = y/alpha;
+    g.is_isotropic = x == y;
     g.log_range = -2*klog(alpha);
     g.k0 = (1 - alpha)*(1 + alpha);
     g.survival = 1/kexpm1(-g.excess*g.log_range);

@@ -160,6 +160,26 @@ static real turn_sin(real u)
     return kcossin_turn(u).y;
 }
 
+static real fall_of_one(real x)
+{
+    return kexp_fall(1, x);
+}
+
+static real fall_of_much(real x) /* e^-x alone is 0 for most of these x */
+{
+    return kexp_fall(1152921504606846976.0f, x); /* 2^60 */
+}
+
+static wide ref_fall(wide x)
+{
+    return WIDE(exp)(-x);
+}
+
+static wide ref_fall_of_much(wide x)
+{
+    return WIDE(exp)(-x)*1152921504606846976.0f;
+}
+
 /* How a case draws its arguments between low and high: evenly, evenly in the logarithm, or low plus a distance
  * from it that is even in the logarithm */
 typedef enum { EVENLY, BY_MAGNITUDE, NEAR_LOW } spread;
@@ -182,6 +202,8 @@ typedef struct {
 static const error_case ERROR_CASES[] = {
     {"exp", kexp, WIDE(exp), EVENLY, LOWEST, HIGHEST, BOUND(1.0, 1.0)},
     {"exp near 0", kexp, WIDE(exp), EVENLY, -1, 1, BOUND(1.0, 1.0)},
+    {"exp_fall", fall_of_one, ref_fall, EVENLY, 0, -LOWEST, BOUND(1.5, 1.5)},
+    {"exp_fall of 2^60", fall_of_much, ref_fall_of_much, EVENLY, 0, 41 - LOWEST, BOUND(1.5, 1.5)},
     {"exp_neg_square", kexp_neg_square, ref_exp_neg_square, EVENLY, 0, BOUND(9.34, 26.6), BOUND(1.2, 1.2)},
     {"expm1", kexpm1, WIDE(expm1), EVENLY, -50, HIGHEST, BOUND(1.6, 2.0)},
     {"expm1 near 0", kexpm1, WIDE(expm1), EVENLY, -2, 2, BOUND(1.6, 2.0)},
@@ -415,6 +437,9 @@ static void special_values_are_exact(void **state)
     ASSERT_SAME(kexp(REAL_MAX), REAL_MAX);
     ASSERT_SAME(kexp(EXP_LOWEST*1.01f), 0);
     ASSERT_SAME(kexp(-REAL_MAX), 0);
+    ASSERT_SAME(kexp_fall(3, 0), 3);
+    ASSERT_SAME(kexp_fall(1, 50 - EXP_LOWEST), 0);
+    ASSERT_SAME(kexp_fall(1, REAL_MAX), 0);
     ASSERT_SAME(kexpm1(0), 0);
     ASSERT_SAME(kexpm1(-REAL_MAX), -1);
     ASSERT_SAME(kexpm1(REAL_MAX), REAL_MAX);
