@@ -28,34 +28,59 @@ enum { SIZE = 512, RUNS = 5, MOST_RECORDED = 1 << 21 };
 
 /* ---- recording -------------------------------------------------------------------------------- */
 
+/* Rays in the groups in which they were traced. */
+typedef struct ray_group {
+    size_t first, n;
+    bool is_coherent;
+} ray_group;
+
 typedef struct ray_log {
-    ray *rays;
-    size_t n;
+    float *fields[8];
+    uint32_t *seeds;
+    ray_group *groups;
+    size_t n, n_groups;
 } ray_log;
 
 static ray_log closest, shadow;
 static bool is_recording;
 
-bool __real_tracer_intersect(const tracer *t, const ray *r, hit *found);
-bool __real_tracer_occluded(const tracer *t, const ray *r);
-bool __wrap_tracer_intersect(const tracer *t, const ray *r, hit *found);
-bool __wrap_tracer_occluded(const tracer *t, const ray *r);
+void __real_tracer_nearest(const tracer *t, size_t n, rays r, bool is_coherent, hits h);
+void __real_tracer_blocked(const tracer *t, size_t n, rays r, uint32_t *is_blocked);
+void __wrap_tracer_nearest(const tracer *t, size_t n, rays r, bool is_coherent, hits h);
+void __wrap_tracer_blocked(const tracer *t, size_t n, rays r, uint32_t *is_blocked);
 
-static void record(ray_log *log, const ray *r)
+static rays logged_rays(const ray_log *log, size_t first)
 {
-    if (log->n < MOST_RECORDED) log->rays[log->n++] = *r;
+    float *const *f = log->fields;
+    return (rays){.origin = {f[0] + first, f[1] + first, f[2] + first},
+                  .direction = {f[3] + first, f[4] + first, f[5] + first},
+                  .t_min = f[6] + first,
+                  .t_max = f[7] + first,
+                  .seed = log->seeds + first};
 }
 
-bool __wrap_tracer_intersect(const tracer *t, const ray *r, hit *found)
+static void record(ray_log *log, size_t n, rays r, bool is_coherent)
 {
-    if (is_recording) record(&closest, r);
-    return __real_tracer_intersect(t, r, found);
+    const size_t room = (n + TRACER_LANES - 1)/TRACER_LANES*TRACER_LANES;
+    if (n == 0 || log->n + room > MOST_RECORDED) return;
+    const float *const from[8] = {r.origin.x,    r.origin.y,    r.origin.z, r.direction.x,
+                                  r.direction.y, r.direction.z, r.t_min,    r.t_max};
+    for (int k = 0; k < 8; k++) memcpy(log->fields[k] + log->n, from[k], n*sizeof(float));
+    memcpy(log->seeds + log->n, r.seed, n*sizeof *r.seed);
+    log->groups[log->n_groups++] = (ray_group){log->n, n, is_coherent};
+    log->n += room;
 }
 
-bool __wrap_tracer_occluded(const tracer *t, const ray *r)
+void __wrap_tracer_nearest(const tracer *t, size_t n, rays r, bool is_coherent, hits h)
 {
-    if (is_recording) record(&shadow, r);
-    return __real_tracer_occluded(t, r);
+    if (is_recording) record(&closest, n, r, is_coherent);
+    __real_tracer_nearest(t, n, r, is_coherent, h);
+}
+
+void __wrap_tracer_blocked(const tracer *t, size_t n, rays r, uint32_t *is_blocked)
+{
+    if (is_recording) record(&shadow, n, r, false);
+    __real_tracer_blocked(t, n, r, is_blocked);
 }
 
 /* ---- scenes ----------------------------------------------------------------------------------- */
@@ -72,6 +97,20 @@ static void *allocate(size_t n, size_t size)
     void *p = calloc(n, size);
     if (!p) check(FACET_NO_MEMORY, "scene");
     return p;
+}
+
+static void log_create(ray_log *log)
+{
+    for (int k = 0; k < 8; k++) log->fields[k] = allocate(MOST_RECORDED, sizeof(float));
+    log->seeds = allocate(MOST_RECORDED, sizeof *log->seeds);
+    log->groups = allocate(MOST_RECORDED, sizeof *log->groups);
+}
+
+static void log_destroy(ray_log *log)
+{
+    for (int k = 0; k < 8; k++) free(log->fields[k]);
+    free(log->seeds);
+    free(log->groups);
 }
 
 static size_t add_material(scene *s, const char *spec, float emission)
@@ -262,20 +301,25 @@ static void measure_noise(uint32_t spp)
     scene_destroy(s);
 }
 
-static volatile unsigned n_hits; /* keeps the compiler from dropping the calls */
-
 /* CPU nanoseconds per ray of a log, traced alone: the median of the runs. */
 static double replay(const tracer *t, const ray_log *log, bool is_shadow)
 {
+    static float numbers[3][1 << 12];
+    static uint32_t words[2][1 << 12];
     double ns[RUNS];
+    size_t n = 0;
+    for (size_t k = 0; k < log->n_groups; k++) n += log->groups[k].n;
     for (int i = 0; i < RUNS; i++) {
         const double start = process_seconds();
-        unsigned n = 0;
-        hit found;
-        for (size_t k = 0; k < log->n; k++)
-            n += is_shadow ? tracer_occluded(t, &log->rays[k]) : tracer_intersect(t, &log->rays[k], &found);
-        n_hits = n;
-        ns[i] = 1e9*(process_seconds() - start)/(double)(log->n ? log->n : 1);
+        for (size_t k = 0; k < log->n_groups; k++) {
+            const ray_group g = log->groups[k];
+            const rays r = logged_rays(log, g.first);
+            if (is_shadow) __real_tracer_blocked(t, g.n, r, words[0]);
+            else
+                __real_tracer_nearest(t, g.n, r, g.is_coherent,
+                                      (hits){numbers[0], numbers[1], numbers[2], words[0], words[1]});
+        }
+        ns[i] = 1e9*(process_seconds() - start)/(double)(n ? n : 1);
     }
     return median(ns, RUNS);
 }
@@ -294,7 +338,7 @@ static void measure(const char *name, scene *(*make)(void), uint32_t spp, FILE *
     }
     const double seconds = median(cpu, RUNS), scaling = median(ratios, RUNS);
 
-    closest.n = shadow.n = 0;
+    closest.n = closest.n_groups = shadow.n = shadow.n_groups = 0;
     is_recording = true;
     run_blind(s, 1, 1);
     is_recording = false;
@@ -331,8 +375,8 @@ int main(int argc, char **argv)
             return 2;
         }
     }
-    closest.rays = allocate(MOST_RECORDED, sizeof(ray));
-    shadow.rays = allocate(MOST_RECORDED, sizeof(ray));
+    log_create(&closest);
+    log_create(&shadow);
     printf("%-8s %9s %8s %8s %13s %17s %8s %6s %6s\n", "", "", "Mpaths/s", "Mrays/s", "rays per path", "Embree Mrays/s",
            "share in", "time /", "1 to 2");
     printf("%-8s %9s %8s %8s %6s %6s %8s %8s %8s %6s %6s\n", "scene", "triangles", "1 thread", "1 thread", "near",
@@ -341,7 +385,7 @@ int main(int argc, char **argv)
     measure("70k", one_ball_scene, spp, csv);
     measure("2M", eight_balls_scene, spp, csv);
     measure_noise(4*spp);
-    free(closest.rays);
-    free(shadow.rays);
+    log_destroy(&closest);
+    log_destroy(&shadow);
     return csv && fclose(csv) != 0 ? 4 : 0;
 }

@@ -1,9 +1,9 @@
-/* embree.c: the tracer, on Embree 3.  The only file that sees its headers.
+/* embree.c: rays against a tree, by Embree 3.  The only file that sees its headers.
  *
  * A mesh that one instance uses is put into the scene in world space; a mesh that several use becomes a scene
- * of its own, instanced (one level, Embree's limit here).  Single rays, RTC_SCENE_FLAG_ROBUST: watertight.
+ * of its own, instanced (one level, Embree's limit here).  RTC_SCENE_FLAG_ROBUST: watertight.
  * SPDX-License-Identifier: MIT */
-#include "render/tracer.h"
+#include "render/embree.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,15 +22,16 @@
 
 /* What the filter of a mesh that is not opaque needs. */
 typedef struct opacity_data {
-    const tracer *owner;
+    const embree_scene *owner;
     uint32_t mesh;
 } opacity_data;
 
-struct tracer {
+struct embree_scene {
     const scene *scene;
     tracer_opacity *opacity;
     const void *opacity_user;
     const char *isa;
+    int width; /* rays in a packet */
     RTCDevice device;
     RTCScene top;
     RTCScene *shared;        /* [n_meshes] scenes of the meshes with several instances; else NULL */
@@ -41,7 +42,7 @@ struct tracer {
 
 static void record_error(void *user, enum RTCError code, const char *text)
 {
-    tracer *t = user;
+    embree_scene *t = user;
     if (t->error != RTC_ERROR_NONE) return;
     t->error = code;
     size_t length = text ? strlen(text) : 0;
@@ -49,22 +50,44 @@ static void record_error(void *user, enum RTCError code, const char *text)
     if (length) memcpy(t->message, text, length);
 }
 
-/* Keeps or drops a candidate hit: below the cutoff of a mask, or by chance for blending.  The chance depends on
+/* Embree's arrays of N rays or hits, by field (rtcore_ray.h), whose accessors C does not have. */
+enum { RAY_ID = 10, HIT_U = 3, HIT_V = 4, HIT_PRIMITIVE = 5, HIT_GEOMETRY = 6, HIT_INSTANCE = 7 };
+
+static uint32_t word_of(const void *fields, unsigned field, unsigned n, unsigned i)
+{
+    uint32_t word;
+    memcpy(&word, (const char *)fields + sizeof word*(field*n + i), sizeof word);
+    return word;
+}
+
+static float number_of(const void *fields, unsigned field, unsigned n, unsigned i)
+{
+    float number;
+    memcpy(&number, (const char *)fields + sizeof number*(field*n + i), sizeof number);
+    return number;
+}
+
+/* Keeps or drops candidate hits: below the cutoff of a mask, or by chance for blending.  The chance depends on
  * the ray and the triangle alone, so that the order of traversal does not matter. */
 static void filter_by_opacity(const struct RTCFilterFunctionNArguments *args)
 {
     const opacity_data *data = args->geometryUserPtr;
-    const tracer *t = data->owner;
-    const struct RTCRay *r = (const struct RTCRay *)args->ray;
-    const struct RTCHit *h = (const struct RTCHit *)args->hit;
-    if (args->valid[0] == 0) return;
-    const float opacity = t->opacity(t->opacity_user, data->mesh, h->primID, h->u, h->v);
-    const uint32_t id = hash_pair(hash_pair(r->id, h->instID[0]), hash_pair(h->geomID, h->primID));
-    if (!(fraction(id) < opacity)) args->valid[0] = 0;
+    const embree_scene *t = data->owner;
+    const unsigned n = args->N;
+    for (unsigned i = 0; i < n; i++) {
+        if (args->valid[i] == 0) continue;
+        const uint32_t primitive = word_of(args->hit, HIT_PRIMITIVE, n, i);
+        const float opacity = t->opacity(t->opacity_user, data->mesh, primitive, number_of(args->hit, HIT_U, n, i),
+                                         number_of(args->hit, HIT_V, n, i));
+        const uint32_t chance = hash_pair(
+            hash_pair(word_of(args->ray, RAY_ID, n, i), word_of(args->hit, HIT_INSTANCE, n, i)),
+            hash_pair(word_of(args->hit, HIT_GEOMETRY, n, i), primitive));
+        if (!(fraction(chance) < opacity)) args->valid[i] = 0;
+    }
 }
 
 /* The triangles of a mesh as an Embree geometry, in world space when `to_world` is given; NULL on failure. */
-static RTCGeometry triangles_create(tracer *t, size_t mesh_index, const float (*to_world)[4])
+static RTCGeometry triangles_create(embree_scene *t, size_t mesh_index, const float (*to_world)[4])
 {
     const mesh *m = &t->scene->meshes[mesh_index];
     RTCGeometry g = rtcNewGeometry(t->device, RTC_GEOMETRY_TYPE_TRIANGLE);
@@ -94,7 +117,7 @@ static RTCGeometry triangles_create(tracer *t, size_t mesh_index, const float (*
     return g;
 }
 
-static RTCScene scene_new(tracer *t)
+static RTCScene scene_new(embree_scene *t)
 {
     RTCScene s = rtcNewScene(t->device);
     rtcSetSceneFlags(s, RTC_SCENE_FLAG_ROBUST);
@@ -103,7 +126,7 @@ static RTCScene scene_new(tracer *t)
 }
 
 /* The mesh's own scene, made on first use; NULL on failure. */
-static RTCScene shared_scene(tracer *t, size_t mesh_index)
+static RTCScene shared_scene(embree_scene *t, size_t mesh_index)
 {
     if (!t->shared[mesh_index]) {
         RTCGeometry g = triangles_create(t, mesh_index, NULL);
@@ -124,7 +147,7 @@ static bool is_invertible(const float m[3][4])
     return isfinite(scale) && kabs(det) > 1e-7f*scale;
 }
 
-static bool add_instance(tracer *t, size_t i, bool is_shared)
+static bool add_instance(embree_scene *t, size_t i, bool is_shared)
 {
     const instance *in = &t->scene->instances[i];
     if (t->scene->meshes[in->mesh].n_triangles == 0 || (is_shared && !is_invertible(in->to_world))) return true;
@@ -145,7 +168,7 @@ static bool add_instance(tracer *t, size_t i, bool is_shared)
     return true;
 }
 
-static bool add_spheres(tracer *t)
+static bool add_spheres(embree_scene *t)
 {
     const scene *s = t->scene;
     if (s->n_spheres == 0) return true;
@@ -164,7 +187,7 @@ static bool add_spheres(tracer *t)
     return points != NULL;
 }
 
-static bool build(tracer *t)
+static bool build(embree_scene *t)
 {
     const scene *s = t->scene;
     size_t *n_users = calloc(s->n_meshes + 1, sizeof *n_users);
@@ -213,18 +236,19 @@ static facet_status choose_isa(const char *wanted, const char **chosen, facet_er
                            wanted ? wanted : "");
 }
 
-facet_status tracer_create(const scene *s, const char *isa, uint32_t n_threads, tracer_opacity *opacity,
-                           const void *opacity_user, tracer **result, facet_error *why)
+facet_status embree_scene_create(const scene *s, const char *isa, uint32_t n_threads, tracer_opacity *opacity,
+                                 const void *opacity_user, embree_scene **result, facet_error *why)
 {
     const char *chosen = NULL;
     const facet_status status = choose_isa(isa, &chosen, why);
     if (status) return status;
-    tracer *t = calloc(1, sizeof *t);
+    embree_scene *t = calloc(1, sizeof *t);
     if (!t) return facet_error_set(why, FACET_NO_MEMORY, "", "no memory for the scene");
     t->scene = s;
     t->opacity = opacity;
     t->opacity_user = opacity_user;
     t->isa = chosen;
+    t->width = strcmp(chosen, "avx512") == 0 ? 16 : strncmp(chosen, "avx", 3) == 0 ? 8 : 4;
     char config[64];
     snprintf(config, sizeof config, "isa=%s,threads=%u", strcmp(chosen, "default") == 0 ? "" : chosen, n_threads);
     t->device = rtcNewDevice(config);
@@ -240,11 +264,11 @@ facet_status tracer_create(const scene *s, const char *isa, uint32_t n_threads, 
     }
     facet_error_set(why, FACET_NO_MEMORY, "", "the acceleration structure cannot be built: %s",
                     t->message[0] ? t->message : "not enough memory");
-    tracer_destroy(t);
+    embree_scene_destroy(t);
     return FACET_NO_MEMORY;
 }
 
-void tracer_destroy(tracer *t)
+void embree_scene_destroy(embree_scene *t)
 {
     if (!t) return;
     if (t->top) rtcReleaseScene(t->top);
@@ -257,12 +281,12 @@ void tracer_destroy(tracer *t)
     free(t);
 }
 
-const char *tracer_isa(const tracer *t)
+const char *embree_scene_isa(const embree_scene *t)
 {
     return t->isa;
 }
 
-void tracer_prepare_thread(void)
+void embree_prepare_thread(void)
 {
 #if defined(__x86_64__)
     _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
@@ -271,53 +295,90 @@ void tracer_prepare_thread(void)
 }
 
 /* Embree ends the program on rays with larger coordinates, or NaN; nothing it holds can lie on them. */
-static bool is_traceable(const ray *r)
+static bool is_traceable(rays r, size_t i)
 {
     const float largest = 1e18f;
-    for (int k = 0; k < 3; k++)
-        if (!(kabs(r->origin[k]) < largest && kabs(r->direction[k]) < largest)) return false;
-    return r->t_min >= 0 && r->t_max >= r->t_min;
+    return kabs(r.origin.x[i]) < largest && kabs(r.origin.y[i]) < largest && kabs(r.origin.z[i]) < largest &&
+           kabs(r.direction.x[i]) < largest && kabs(r.direction.y[i]) < largest && kabs(r.direction.z[i]) < largest &&
+           r.t_min[i] >= 0 && r.t_max[i] >= r.t_min[i];
 }
 
-static struct RTCRay ray_for_embree(const ray *r)
-{
-    return (struct RTCRay){.org_x = r->origin[0],
-                           .org_y = r->origin[1],
-                           .org_z = r->origin[2],
-                           .tnear = r->t_min,
-                           .dir_x = r->direction[0],
-                           .dir_y = r->direction[1],
-                           .dir_z = r->direction[2],
-                           .tfar = r->t_max,
-                           .mask = ~0u,
-                           .id = r->seed};
-}
+/* A ray that is traced alone or in a packet, 8 or 16 at once, meets the same surface, to the last bit, whoever else is
+ * in the packet (tests/render/test_tracer.c). */
+#define LOAD_PACKET(WIDTH, ray, valid, r, first, n)                                                                    \
+    for (size_t i = 0; i < WIDTH; i++) {                                                                               \
+        const size_t k = (first) + (i < (n) ? i : 0);                                                                  \
+        (valid)[i] = i < (n) && is_traceable(r, k) ? -1 : 0;                                                           \
+        (ray).org_x[i] = (r).origin.x[k];                                                                              \
+        (ray).org_y[i] = (r).origin.y[k];                                                                              \
+        (ray).org_z[i] = (r).origin.z[k];                                                                              \
+        (ray).dir_x[i] = (r).direction.x[k];                                                                           \
+        (ray).dir_y[i] = (r).direction.y[k];                                                                           \
+        (ray).dir_z[i] = (r).direction.z[k];                                                                           \
+        (ray).tnear[i] = (r).t_min[k];                                                                                 \
+        (ray).tfar[i] = (r).t_max[k];                                                                                  \
+        (ray).time[i] = 0;                                                                                             \
+        (ray).mask[i] = ~0u;                                                                                           \
+        (ray).id[i] = (r).seed[k];                                                                                     \
+        (ray).flags[i] = 0;                                                                                            \
+    }
+#define STORE_PACKET(packet, valid, h, first, n)                                                                       \
+    for (size_t i = 0; i < (n); i++) {                                                                                 \
+        const size_t k = (first) + i;                                                                                  \
+        const uint32_t geometry = (packet).hit.geomID[i], top = (packet).hit.instID[0][i];                             \
+        (h).t[k] = (packet).ray.tfar[i];                                                                               \
+        (h).u[k] = (packet).hit.u[i];                                                                                  \
+        (h).v[k] = (packet).hit.v[i];                                                                                  \
+        (h).primitive[k] = (packet).hit.primID[i];                                                                     \
+        (h).instance[k] = geometry == RTC_INVALID_GEOMETRY_ID || !(valid)[i] ? NO_HIT                                  \
+                          : top == RTC_INVALID_GEOMETRY_ID                   ? geometry                                \
+                                                                             : top;                                                      \
+    }
+#define PACKET_CALLS(WIDTH)                                                                                            \
+    static void nearest##WIDTH(RTCScene tree, struct RTCIntersectContext *context, rays r, size_t first, size_t n,     \
+                               hits h)                                                                                 \
+    {                                                                                                                  \
+        struct RTCRayHit##WIDTH packet;                                                                                \
+        _Alignas(64) int valid[WIDTH];                                                                                 \
+        LOAD_PACKET(WIDTH, packet.ray, valid, r, first, n)                                                             \
+        for (int i = 0; i < WIDTH; i++) packet.hit.geomID[i] = packet.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;      \
+        rtcIntersect##WIDTH(valid, tree, context, &packet);                                                            \
+        STORE_PACKET(packet, valid, h, first, n)                                                                       \
+    }                                                                                                                  \
+    static void blocked##WIDTH(RTCScene tree, struct RTCIntersectContext *context, rays r, size_t first, size_t n,     \
+                               uint32_t *is_blocked)                                                                   \
+    {                                                                                                                  \
+        struct RTCRay##WIDTH packet;                                                                                   \
+        _Alignas(64) int valid[WIDTH];                                                                                 \
+        LOAD_PACKET(WIDTH, packet, valid, r, first, n)                                                                 \
+        rtcOccluded##WIDTH(valid, tree, context, &packet);                                                             \
+        for (size_t i = 0; i < n; i++) is_blocked[first + i] = !valid[i] || packet.tfar[i] < 0;                        \
+    }
+PACKET_CALLS(4)
+PACKET_CALLS(8)
+PACKET_CALLS(16)
 
-bool tracer_intersect(const tracer *t, const ray *r, hit *found)
+void embree_nearest(const embree_scene *t, size_t n, rays r, bool is_coherent, hits h)
 {
-    if (!is_traceable(r)) return false;
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    struct RTCRayHit rh = {.ray = ray_for_embree(r)};
-    rh.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    rh.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
-    rtcIntersect1(t->top, &context, &rh);
-    if (rh.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-    const bool is_instanced = rh.hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
-    *found = (hit){.t = rh.ray.tfar,
-                   .u = rh.hit.u,
-                   .v = rh.hit.v,
-                   .instance = is_instanced ? rh.hit.instID[0] : rh.hit.geomID,
-                   .primitive = rh.hit.primID};
-    return true;
+    if (is_coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    for (size_t first = 0; first < n; first += (size_t)t->width) {
+        const size_t some = n - first < (size_t)t->width ? n - first : (size_t)t->width;
+        if (t->width == 16) nearest16(t->top, &context, r, first, some, h);
+        else if (t->width == 8) nearest8(t->top, &context, r, first, some, h);
+        else nearest4(t->top, &context, r, first, some, h);
+    }
 }
 
-bool tracer_occluded(const tracer *t, const ray *r)
+void embree_blocked(const embree_scene *t, size_t n, rays r, uint32_t *is_blocked)
 {
-    if (!is_traceable(r)) return true;
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
-    struct RTCRay shadow = ray_for_embree(r);
-    rtcOccluded1(t->top, &context, &shadow);
-    return shadow.tfar < 0; /* -inf when something was hit */
+    for (size_t first = 0; first < n; first += (size_t)t->width) {
+        const size_t some = n - first < (size_t)t->width ? n - first : (size_t)t->width;
+        if (t->width == 16) blocked16(t->top, &context, r, first, some, is_blocked);
+        else if (t->width == 8) blocked8(t->top, &context, r, first, some, is_blocked);
+        else blocked4(t->top, &context, r, first, some, is_blocked);
+    }
 }

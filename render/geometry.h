@@ -61,17 +61,22 @@ static inline real3 to_world(const frame *f, real3 d)
     return add3(add3(scale3(d.x, f->t), scale3(d.y, f->b)), scale3(d.z, f->n));
 }
 
+/* A frame with normal n.  Duff et al., Building an orthonormal basis, revisited, JCGT 2017. */
+static inline frame frame_of_normal(real3 n)
+{
+    const float sign = n.z < 0 ? -1.0f : 1.0f, a = -1/(sign + n.z), b = n.x*n.y*a;
+    return (frame){
+        .t = make3(1 + sign*n.x*n.x*a, sign*b, -sign*n.x), .b = make3(b, sign + n.y*n.y*a, -n.y), .n = n};
+}
+
 /* The frame with normal n and its tangent as near to `tangent` as can be (any tangent if that is 0 or
  * parallel to n).  handedness: sign of b relative to n x t. */
 static inline frame frame_around(real3 n, real3 tangent, float handedness)
 {
-    real3 t = sub3(tangent, scale3(dot3(tangent, n), n));
-    if (!(dot3(t, t) > 1e-12f*dot3(tangent, tangent))) {
-        const real3 axis = kabs(n.x) < 0.7f ? make3(1, 0, 0) : make3(0, 1, 0);
-        t = sub3(axis, scale3(dot3(axis, n), n));
-    }
-    t = normalize3(t);
-    return (frame){.t = t, .b = scale3(handedness, cross3(n, t)), .n = n};
+    const real3 t = sub3(tangent, scale3(dot3(tangent, n), n));
+    if (!(dot3(t, t) > 1e-12f*dot3(tangent, tangent))) return frame_of_normal(n);
+    const real3 unit = normalize3(t);
+    return (frame){.t = unit, .b = scale3(handedness, cross3(n, unit)), .n = n};
 }
 
 /* The largest of |x|, |y|, |z|. */
@@ -80,10 +85,13 @@ static inline float max_abs3(real3 v)
     return kmax(kabs(v.x), kmax(kabs(v.y), kabs(v.z)));
 }
 
-/* The unit normal of a triangle with these edges, counter-clockwise seen from the front; the edges are scaled
- * first, because squares of squares of small lengths underflow.  (0,0,1) for a triangle without area. */
+/* The unit normal of a triangle with these edges, counter-clockwise seen from the front.  (0,0,1) for a triangle without
+ * area.  Where squares of squares of lengths would leave the range of numbers, the edges are scaled first. */
 static inline real3 normal_of_edges(real3 e1, real3 e2)
 {
+    const real3 cross = cross3(e1, e2);
+    const float length2 = dot3(cross, cross);
+    if (length2 > 1e-24f && length2 < 1e24f) return scale3(1/ksqrt(length2), cross);
     const float a = max_abs3(e1), b = max_abs3(e2);
     return normalize3(cross3(scale3(a > 0 ? 1/a : 0.0f, e1), scale3(b > 0 ? 1/b : 0.0f, e2)));
 }

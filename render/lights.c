@@ -17,6 +17,8 @@ typedef struct emitter {
     emitter_kind kind;
     uint32_t instance, primitive; /* triangle; primitive alone: sphere or punctual light */
     bool is_double_sided;
+    bool is_even;               /* triangle: emits the same radiance everywhere */
+    real3 radiance;             /* ... which is this [W/(m^2 sr)] */
     float area;                 /* triangle [m^2] */
     real3 origin, edge1, edge2; /* triangle, world space */
     real3 normal;               /* triangle, unit, on the front side */
@@ -96,6 +98,8 @@ static facet_status add_instance(light_set *set, size_t index)
         e.area = 0.5f*length3(cross3(e.edge1, e.edge2));
         e.normal = scale3(sign, normal_of_edges(e.edge1, e.edge2));
         e.is_double_sided = mat->is_double_sided;
+        e.is_even = mat->emissive_texture.texture == NONE;
+        e.radiance = vector_of(mat->emission);
         e.offset = RELATIVE_OFFSET*kmax(max_abs3(p0), kmax(max_abs3(p1), max_abs3(p2)));
         const double mean = mean_emission(s, m, i);
         e.strength = (float)mean;
@@ -232,14 +236,16 @@ static light_sample sample_triangle(const light_set *set, const emitter *e, real
     const float b1 = 1 - root, b2 = v*root;
     const real3 point = add3(e->origin, add3(scale3(b1, e->edge1), scale3(b2, e->edge2)));
     const real3 to_point = sub3(point, from);
-    const float facing = -dot3(to_point, e->normal);
+    const float facing = -dot3(to_point, e->normal), d2 = dot3(to_point, to_point);
     light_sample s = {.pdf = 0};
-    if (!(facing > 0 || e->is_double_sided)) return s;
-    s.pdf = area_pdf(to_point, e->normal, e->area);
-    s.direction = normalize3(to_point);
+    if (!(facing > 0 || e->is_double_sided) || !(d2 > REAL_MIN)) return s;
+    const float inverse = 1/ksqrt(d2), cos_area = kabs(facing)*inverse*e->area;
+    s.pdf = cos_area > 0 ? d2/cos_area : 0;
+    s.direction = scale3(inverse, to_point);
     s.target = madd3(point, facing > 0 ? e->offset : -e->offset, e->normal);
-    s.radiance = surface_emission(set->scene, &set->scene->meshes[set->scene->instances[e->instance].mesh],
-                                  e->primitive, b1, b2);
+    s.radiance = e->is_even ? e->radiance
+                            : surface_emission(set->scene, &set->scene->meshes[set->scene->instances[e->instance].mesh],
+                                               e->primitive, b1, b2);
     return s;
 }
 
@@ -358,20 +364,20 @@ static uint32_t choose_emitter(const light_set *set, real3 from, uint32_t u, uin
         *probability = set->choice.cells[index].probability;
         return index;
     }
-    double weights[MOST_WEIGHED], sum = 0;
-    for (uint32_t i = 0; i < set->n_emitters; i++) sum += weights[i] = (double)importance(set, &set->emitters[i], from);
-    double left = (double)u*0x1p-32*sum;
+    float weights[MOST_WEIGHED], sum = 0;
+    for (uint32_t i = 0; i < set->n_emitters; i++) sum += weights[i] = importance(set, &set->emitters[i], from);
+    double left = (double)u*0x1p-32*(double)sum; /* all 32 digits: the rest chooses one of many texels */
     uint32_t index = 0, last = 0;
-    for (; index < set->n_emitters; left -= weights[index++]) {
+    for (; index < set->n_emitters; left -= (double)weights[index++]) {
         if (weights[index] > 0) last = index;
-        if (left < weights[index]) break;
+        if (left < (double)weights[index]) break;
     }
     if (index == set->n_emitters) { /* rounding at the upper end */
         index = last;
         left = 0;
     }
-    *probability = sum > 0 && isfinite(sum) ? (float)(weights[index]/sum) : 0;
-    const double fraction_left = *probability > 0 ? left/weights[index]*0x1p32 : 0;
+    *probability = sum > 0 && sum < INFINITY ? weights[index]/sum : 0;
+    const double fraction_left = *probability > 0 ? left/(double)weights[index]*0x1p32 : 0;
     *rest = fraction_left < 0x1p32 - 1 ? (uint32_t)fraction_left : UINT32_MAX;
     return index;
 }
@@ -380,9 +386,9 @@ static uint32_t choose_emitter(const light_set *set, real3 from, uint32_t u, uin
 static float choice_probability(const light_set *set, real3 from, size_t index)
 {
     if (set->n_emitters > MOST_WEIGHED) return set->choice.cells[index].probability;
-    double sum = 0;
-    for (uint32_t i = 0; i < set->n_emitters; i++) sum += (double)importance(set, &set->emitters[i], from);
-    return sum > 0 && isfinite(sum) ? (float)((double)importance(set, &set->emitters[index], from)/sum) : 0;
+    float sum = 0;
+    for (uint32_t i = 0; i < set->n_emitters; i++) sum += importance(set, &set->emitters[i], from);
+    return sum > 0 && sum < INFINITY ? importance(set, &set->emitters[index], from)/sum : 0;
 }
 
 light_sample light_set_sample(const light_set *set, real3 from, const uint32_t u[3])

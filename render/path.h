@@ -1,4 +1,5 @@
-/* path.h: the path tracer: batches of paths through the stages generate, trace, shade and connect.
+/* path.h: the path tracer: all paths of a tile together through the stages generate, trace, meet
+ * surfaces, connect to lights, scatter.
  *
  * [cs500] CS500 Project 3, TracePath, in its corrected form: light is found both by rays towards lights and by
  * scattered rays that meet them, weighted by the power heuristic with the bare densities of the two; Russian
@@ -24,6 +25,7 @@ typedef struct path_context {
     const camera *camera;
     const tracer *tracer;
     const light_set *lights;
+    const surface_set *surfaces;
     sampler sampler;
     bool has_mixed_surfaces;         /* some material is part smooth interface, part opaque */
     const render_settings *settings; /* crop filled in */
@@ -40,11 +42,11 @@ typedef struct tile {
     uint32_t x0, y0, x1, y1;
 } tile;
 
-#define TILE_SIZE 16
+#define TILE_SIZE 32
 
 /* A thread's workspace for one tile's paths. */
 typedef struct path_batch path_batch;
-path_batch *path_batch_create(void);
+path_batch *path_batch_create(const scene *s);
 void path_batch_destroy(path_batch *batch);
 
 /* Adds sample number `sample` of every pixel of the tile to the film. */

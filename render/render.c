@@ -85,6 +85,7 @@ static void job_destroy(job *j)
     free(j->workers);
     film_destroy(&j->film);
     light_set_destroy((light_set *)j->context.lights);
+    surface_set_destroy((surface_set *)j->context.surfaces);
     tracer_destroy((tracer *)j->context.tracer);
 }
 
@@ -100,13 +101,17 @@ static facet_status job_create(const scene *s, const render_settings *r, uint32_
     facet_status status = light_set_create(s, &lights, why);
     if (status == FACET_OK) status = tracer_create(s, r->isa, n_threads, surface_opacity, s, &built, why);
     j->context.lights = lights;
+    surface_set *surfaces = NULL;
+    if (status == FACET_OK && (status = surface_set_create(s, &surfaces)) != FACET_OK)
+        facet_error_set(why, status, "", "no memory for the scene's surfaces");
+    j->context.surfaces = surfaces;
     j->context.tracer = built;
     if (status == FACET_OK) {
         status = film_create(r->crop_w, r->crop_h, &j->film);
         j->workers = calloc(n_threads, sizeof *j->workers);
         if (!j->workers) status = FACET_NO_MEMORY;
         for (; status == FACET_OK && j->n_workers < n_threads; j->n_workers++)
-            if (!(j->workers[j->n_workers].batch = path_batch_create())) status = FACET_NO_MEMORY;
+            if (!(j->workers[j->n_workers].batch = path_batch_create(s))) status = FACET_NO_MEMORY;
         if (status) facet_error_set(why, status, "size", "no memory for a picture of %zux%zu", r->crop_w, r->crop_h);
         j->n_tiles_x = (uint32_t)((r->crop_w + TILE_SIZE - 1)/TILE_SIZE);
     }

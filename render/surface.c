@@ -3,12 +3,91 @@
 #include "render/surface.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 #include "render/texture.h"
 
 /* The viewer's mirror image leaves the true surface at this cosine at least (or almost at the viewer's own, where
  * that is less). */
 #define LEAST_MIRROR_COSINE 0.01f
+
+typedef struct placement {
+    float sign;   /* of the determinant */
+    float column; /* the largest factor by which a coordinate grows */
+    float offset; /* the largest coordinate of its origin */
+    const mesh *mesh;
+} placement;
+
+typedef struct shared_shading {
+    bool is_uniform; /* one bsdf for all points, but for vertex colours */
+    bool transmits;  /* the bsdf does */
+    facet_bsdf bsdf;
+} shared_shading;
+
+struct surface_set {
+    const scene *scene;
+    placement *placements;    /* [n_instances] */
+    shared_shading *shadings; /* [n_materials] */
+};
+
+static facet_bsdf reflection_of(const material *mat, const float base_color[3], float metallic, float roughness)
+{
+    const float root_F0 = (mat->ior - 1)/(mat->ior + 1);
+    return facet_bsdf_metallic_roughness(base_color, metallic, roughness, root_F0*root_F0, mat->specular,
+                                         mat->specular_color);
+}
+
+static shared_shading shading_of(const material *mat)
+{
+    if (mat->kind == SURFACE_BSDF)
+        return (shared_shading){true, facet_bsdf_lobes(&mat->bsdf) & FACET_TRANSMISSION, mat->bsdf};
+    const bool has_texture = mat->base_color_texture.texture != NONE || mat->metallic_roughness_texture.texture != NONE;
+    if (mat->kind != SURFACE_METALLIC_ROUGHNESS || has_texture || mat->transmission > 0)
+        return (shared_shading){.transmits = false};
+    float base[3];
+    for (int k = 0; k < 3; k++) base[k] = kmin(kmax(mat->base_color[k], 0), 1);
+    return (shared_shading){.is_uniform = true, .bsdf = reflection_of(mat, base, mat->metallic, mat->roughness)};
+}
+
+static placement placement_of(const scene *s, const instance *in)
+{
+    const real3 x = map_column(in->to_world, 0), y = map_column(in->to_world, 1), z = map_column(in->to_world, 2);
+    return (placement){.sign = map_determinant(in->to_world) < 0 ? -1.0f : 1.0f,
+                       .column = kmax(max_abs3(x), kmax(max_abs3(y), max_abs3(z))),
+                       .offset = max_abs3(map_column(in->to_world, 3)),
+                       .mesh = &s->meshes[in->mesh]};
+}
+
+facet_status surface_set_create(const scene *s, surface_set **result)
+{
+    surface_set *set = calloc(1, sizeof *set);
+    if (!set) return FACET_NO_MEMORY;
+    set->scene = s;
+    set->placements = malloc((s->n_instances + 1)*sizeof *set->placements);
+    set->shadings = malloc((s->n_materials + 1)*sizeof *set->shadings);
+    if (!set->placements || !set->shadings) {
+        surface_set_destroy(set);
+        return FACET_NO_MEMORY;
+    }
+    for (size_t i = 0; i < s->n_instances; i++) set->placements[i] = placement_of(s, &s->instances[i]);
+    for (size_t i = 0; i < s->n_materials; i++) set->shadings[i] = shading_of(&s->materials[i]);
+    *result = set;
+    return FACET_OK;
+}
+
+void surface_set_destroy(surface_set *set)
+{
+    if (!set) return;
+    free(set->placements);
+    free(set->shadings);
+    free(set);
+}
+
+size_t surface_material(const surface_set *set, const hit *h)
+{
+    return h->instance < set->scene->n_instances ? set->placements[h->instance].mesh->material
+                                                 : set->scene->spheres[h->primitive].material;
+}
 
 /* Weights of the three vertices. */
 typedef struct weights {
@@ -110,15 +189,18 @@ static real3 uv_tangent(const mesh *m, const weights *at, unsigned uv_set, real3
 }
 
 /* Fills material, bsdf and emission from texture and vertex values. */
-static void set_material(surface *at, const scene *s, const mesh *m, const material *mat, const weights *w,
-                         float choice)
+static void set_material(surface *at, const surface_set *set, size_t index, const mesh *m, const weights *w,
+                         float choice, facet_bsdf *own)
 {
+    const scene *s = set->scene;
+    const material *mat = &s->materials[index];
+    const shared_shading *common = &set->shadings[index];
     at->scatters = mat->kind != SURFACE_UNLIT;
     const bool emits = at->is_front || mat->is_double_sided;
     if (emits) at->emission = m ? emission_at(s, m, mat, w) : vector_of(mat->emission);
-    if (mat->kind == SURFACE_BSDF) {
-        at->bsdf = mat->bsdf;
-        at->transmits = facet_bsdf_lobes(&mat->bsdf) & FACET_TRANSMISSION;
+    if (mat->kind == SURFACE_BSDF || (common->is_uniform && !(m && m->colors))) {
+        at->bsdf = &common->bsdf;
+        at->transmits = common->transmits;
         return;
     }
     texel base = {{mat->base_color[0], mat->base_color[1], mat->base_color[2], 1}};
@@ -134,13 +216,9 @@ static void set_material(surface *at, const scene *s, const mesh *m, const mater
         metallic *= t.c[2];
     }
     at->transmits = choice < mat->transmission*(1 - metallic);
-    if (at->transmits) {
-        at->bsdf = facet_bsdf_glass(mat->ior, roughness*roughness, base.c, mat->is_thin);
-        return;
-    }
-    const float root_F0 = (mat->ior - 1)/(mat->ior + 1);
-    at->bsdf = facet_bsdf_metallic_roughness(base.c, metallic, roughness, root_F0*root_F0, mat->specular,
-                                             mat->specular_color);
+    at->bsdf = own;
+    *own = at->transmits ? facet_bsdf_glass(mat->ior, roughness*roughness, base.c, mat->is_thin)
+                         : reflection_of(mat, base.c, metallic, roughness);
 }
 
 /* A shading normal that reflection can use.  Interpolated and mapped normals may lean so far from the true one g
@@ -159,13 +237,14 @@ static real3 usable_normal(real3 n, real3 g, real3 wo)
     return normalize3(add3(scale3(kcos(t), g), scale3(ksin(t), x)));
 }
 
-/* The frame: n given on the front side.  Reflecting surfaces are turned to the viewer. */
-static void set_frame(surface *at, real3 n, real3 tangent, float handedness, real3 wo)
+/* The frame: n given on the front side, `true` where it is the geometric normal.  Reflecting surfaces are turned to the
+ * viewer. */
+static void set_frame(surface *at, real3 n, bool is_true, real3 tangent, float handedness, real3 wo)
 {
     const bool flips = !at->is_front && !at->transmits;
-    real3 shading = flips ? neg3(n) : n;
-    if (!at->transmits) shading = usable_normal(shading, flips ? neg3(at->normal) : at->normal, wo);
-    at->shading = frame_around(shading, tangent, handedness);
+    real3 up = flips ? neg3(n) : n;
+    if (!at->transmits && !is_true) up = usable_normal(up, flips ? neg3(at->normal) : at->normal, wo);
+    at->shading = frame_around(up, tangent, handedness);
 }
 
 /* The normal of the normal map in the frame (t, b, n) of the vertices.  [gltf, normalTexture]. */
@@ -178,26 +257,30 @@ static real3 mapped_normal(const scene *s, const mesh *m, const material *mat, c
     return dot3(n, n) > 0 ? normalize3(n) : vertices.n;
 }
 
-static surface triangle_surface(const scene *s, const hit *h, real3 wo, float choice)
+static surface triangle_surface(const surface_set *set, const hit *h, real3 wo, float choice, facet_bsdf *own)
 {
+    const scene *s = set->scene;
+    const placement *placed = &set->placements[h->instance];
     const instance *in = &s->instances[h->instance];
-    const mesh *m = &s->meshes[in->mesh];
+    const mesh *m = placed->mesh;
     const material *mat = &s->materials[m->material];
     const weights w = weights_at(m, h->primitive, h->u, h->v);
-    const float sign = map_determinant(in->to_world) < 0 ? -1.0f : 1.0f;
+    const float sign = placed->sign;
     const real3 p0 = vector_of(m->positions[w.vertex[0]]), p1 = vector_of(m->positions[w.vertex[1]]),
                 p2 = vector_of(m->positions[w.vertex[2]]);
     surface at = {.position = map_point(in->to_world, mix_vertices3(&w, (const float(*)[3])m->positions))};
     at.normal = scale3(sign,
                        normal_of_edges(map_vector(in->to_world, sub3(p1, p0)), map_vector(in->to_world, sub3(p2, p0))));
     at.is_front = dot3(at.normal, wo) > 0;
-    const float column = kmax(max_abs3(map_column(in->to_world, 0)),
-                              kmax(max_abs3(map_column(in->to_world, 1)), max_abs3(map_column(in->to_world, 2))));
     const float local = kmax(max_abs3(p0), kmax(max_abs3(p1), max_abs3(p2)));
-    at.offset = RELATIVE_OFFSET*
-                kmax(max_abs3(at.position), kmax(column*local, max_abs3(map_column(in->to_world, 3))));
-    set_material(&at, s, m, mat, &w, choice);
+    at.offset = RELATIVE_OFFSET*kmax(max_abs3(at.position), kmax(placed->column*local, placed->offset));
+    set_material(&at, set, m->material, m, &w, choice, own);
 
+    const bool is_mapped = mat->normal_texture.texture != NONE && mat->kind != SURFACE_UNLIT;
+    if (!m->normals && !m->tangents && !m->uv[0] && !is_mapped) {
+        set_frame(&at, at.normal, true, splat3(0), 1, wo);
+        return at;
+    }
     real3 n = at.normal;
     if (m->normals) {
         const real3 mixed = map_normal(in->to_world, sign, mix_vertices3(&w, (const float(*)[3])m->normals));
@@ -215,31 +298,30 @@ static surface triangle_surface(const scene *s, const hit *h, real3 wo, float ch
         tangent = map_vector(in->to_world, uv_tangent(m, &w, uv_set, cross3(sub3(p1, p0), sub3(p2, p0)), &handedness));
         handedness *= sign;
     }
-    if (mat->normal_texture.texture != NONE && mat->kind != SURFACE_UNLIT)
-        n = mapped_normal(s, m, mat, &w, frame_around(n, tangent, handedness));
-    set_frame(&at, n, tangent, handedness, wo);
+    if (is_mapped) n = mapped_normal(s, m, mat, &w, frame_around(n, tangent, handedness));
+    set_frame(&at, n, !m->normals && !is_mapped, tangent, handedness, wo);
     return at;
 }
 
-static surface sphere_surface(const scene *s, const hit *h, real3 wo, real3 near, float choice)
+static surface sphere_surface(const surface_set *set, const hit *h, real3 wo, real3 near, float choice, facet_bsdf *own)
 {
-    const sphere *sp = &s->spheres[h->primitive];
+    const sphere *sp = &set->scene->spheres[h->primitive];
     const real3 center = vector_of(sp->center);
     const real3 outward = normalize3(sub3(near, center));
     surface at = {.position = madd3(center, sp->radius, outward), .normal = outward};
     at.is_front = dot3(outward, wo) > 0;
     at.offset = RELATIVE_OFFSET*kmax(max_abs3(at.position), sp->radius);
-    set_material(&at, s, NULL, &s->materials[sp->material], NULL, choice);
+    set_material(&at, set, sp->material, NULL, NULL, choice, own);
     /* Tangents run around the y axis. */
-    set_frame(&at, outward, make3(outward.z, 0, -outward.x), 1, wo);
+    set_frame(&at, outward, true, make3(outward.z, 0, -outward.x), 1, wo);
     return at;
 }
 
-surface surface_at(const scene *s, const ray *r, const hit *h, real3 wo, float choice)
+surface surface_at(const surface_set *set, const ray *r, const hit *h, real3 wo, float choice, facet_bsdf *own)
 {
-    if (h->instance < s->n_instances) return triangle_surface(s, h, wo, choice);
+    if (h->instance < set->scene->n_instances) return triangle_surface(set, h, wo, choice, own);
     const real3 near = madd3(vector_of(r->origin), h->t, vector_of(r->direction));
-    return sphere_surface(s, h, wo, near, choice);
+    return sphere_surface(set, h, wo, near, choice, own);
 }
 
 real3 surface_leave(const surface *at, real3 direction)

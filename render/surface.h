@@ -17,21 +17,32 @@ extern "C" {
 #define RELATIVE_OFFSET 3e-6f
 
 typedef struct surface {
-    real3 position; /* [m] */
-    real3 normal;   /* geometric, unit, on the front side */
-    float offset;   /* how far rays start from the surface, to clear its rounding errors [m] */
-    bool is_front;  /* seen from the front side */
-    bool scatters;  /* false: nothing but emission (unlit) */
-    bool transmits; /* bsdf has a transmitting lobe */
-    frame shading;  /* n on the side of wo, but outwards for transmitting materials */
-    facet_bsdf bsdf;
-    real3 emission; /* radiance towards wo [W/(m^2 sr)] */
-    real3 unlit;    /* radiance of an unlit surface towards the camera */
+    real3 position;         /* [m] */
+    real3 normal;           /* geometric, unit, on the front side */
+    float offset;           /* how far rays start from the surface, to clear its rounding errors [m] */
+    bool is_front;          /* seen from the front side */
+    bool scatters;          /* false: nothing but emission (unlit) */
+    bool transmits;         /* bsdf has a transmitting lobe */
+    frame shading;          /* n on the side of wo, but outwards for transmitting materials */
+    const facet_bsdf *bsdf; /* the material's, where it is the same all over, or made for this point */
+    real3 emission;         /* radiance towards wo [W/(m^2 sr)] */
+    real3 unlit;            /* radiance of an unlit surface towards the camera */
 } surface;
 
+/* What the hits of an instance or a material have in common. */
+typedef struct surface_set surface_set;
+
+/* The scene must stay, unchanged, until surface_set_destroy.  FACET_NO_MEMORY. */
+facet_status surface_set_create(const scene *s, surface_set **result);
+void surface_set_destroy(surface_set *set);
+
 /* The surface at a hit of ray r; wo = -direction, unit.  Where a material is part smooth interface, part opaque,
- * choice in [0,1) picks one of the two, each with its share as probability. */
-surface surface_at(const scene *s, const ray *r, const hit *h, real3 wo, float choice);
+ * choice in [0,1) picks one of the two, each with its share as probability.  own: room for a bsdf made for this point;
+ * to stay as long as the surface. */
+surface surface_at(const surface_set *set, const ray *r, const hit *h, real3 wo, float choice, facet_bsdf *own);
+
+/* The index of the material at a hit. */
+size_t surface_material(const surface_set *set, const hit *h);
 
 /* Radiance that a point of a triangle emits on its emitting side(s), from factors and texture. */
 real3 surface_emission(const scene *s, const mesh *m, uint32_t triangle, float u, float v);

@@ -245,3 +245,14 @@ void expect_estimate(const char *what, estimate e, double truth)
     if (e.error > slack*0.00125*sqrt(SAMPLE_DIVISOR)*fabs(truth))
         fail_msg("%s: the standard error %.3g is too large for the claim", what, e.error);
 }
+
+surface surface_of_hit(const scene *s, const ray *r, const hit *h, real3 wo)
+{
+    surface_set *set = NULL;
+    facet_bsdf own;
+    assert_int_equal(surface_set_create(s, &set), FACET_OK);
+    surface at = surface_at(set, r, h, wo, 0, &own);
+    at.bsdf = NULL;
+    surface_set_destroy(set);
+    return at;
+}

@@ -8,6 +8,7 @@
 
 #include "render/render.h"
 #include "render/scene.h"
+#include "render/surface.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -56,6 +57,9 @@ void build_disc(scene *s, size_t mat, const float center[3], float radius, unsig
 size_t build_zone(scene *s, size_t mat, float cos_from, float cos_to, unsigned n_up, unsigned n_around, bool is_inward);
 
 void build_sphere(scene *s, size_t mat, float x, float y, float z, float radius);
+
+/* surface_at for one hit; its bsdf is NULL. */
+surface surface_of_hit(const scene *s, const ray *r, const hit *h, real3 wo);
 
 /* A camera at `eye` looking at `target`. */
 void build_camera(scene *s, const float eye[3], const float target[3], float yfov);

@@ -110,7 +110,7 @@ static double claimed(const scene *s, const tracer *t, const light_set *set, rea
         *radiance = sky_radiance(light_set_sky(set), w);
         return (double)light_set_pdf_of_sky(set, from, w);
     }
-    const surface at = surface_at(s, &r, &h, neg3(w), 0);
+    const surface at = surface_of_hit(s, &r, &h, neg3(w));
     *radiance = at.emission;
     return max_of3(at.emission) > 0 ? (double)light_set_pdf_of_hit(set, from, &h, &at) : 0;
 }

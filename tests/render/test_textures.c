@@ -191,7 +191,7 @@ static void normal_maps_turn_every_scattering_material(void **state)
         build_quad(s, materials[i], (const float[3]){0, 0, 0}, (const float[3]){1, 0, 0}, (const float[3]){0, 1, 0});
         const hit h = {.t = 1, .u = .25f, .v = .25f, .instance = (uint32_t)i, .primitive = 0};
         const ray r = {.origin = {.5f, .5f, 1}, .direction = {0, 0, -1}};
-        const surface at = surface_at(s, &r, &h, make3(0, 0, 1), 0);
+        const surface at = surface_of_hit(s, &r, &h, make3(0, 0, 1));
         /* The tangent is the direction of growing u: +x here. */
         const double tolerance = 1.0/255;
         assert_true(fabs((double)at.shading.n.x - .498) < tolerance && fabs((double)at.shading.n.z - .867) < tolerance);

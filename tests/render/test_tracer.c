@@ -17,12 +17,33 @@
 
 static const uint32_t n_rays = 1000000/SAMPLE_DIVISOR;
 
-static tracer *trace(const scene *s)
+/* NULL: small scenes by the list; a name: all by the tree. */
+static const char *isa;
+
+static tracer *trace_with(const scene *s, const char *name)
 {
     tracer *t = NULL;
     facet_error why = {0};
-    if (tracer_create(s, NULL, 1, surface_opacity, s, &t, &why)) fail_msg("%s: %s", why.place, why.text);
+    if (tracer_create(s, name, 1, surface_opacity, s, &t, &why)) fail_msg("%s: %s", why.place, why.text);
     return t;
+}
+
+static tracer *trace(const scene *s)
+{
+    return trace_with(s, isa);
+}
+
+/* Embree's best for single rays. */
+static const char *tree_isa(void)
+{
+    scene *s = build_scene();
+    const size_t mat = build_material(s, "lambert kd=.5", 0, false);
+    build_instance(s, build_zone(s, mat, 1, -1, 8, 8, false), NULL); /* too many triangles for the list */
+    tracer *t = trace_with(s, NULL);
+    const char *name = tracer_isa(t);
+    tracer_destroy(t);
+    scene_destroy(s);
+    return name;
 }
 
 static real3 direction_of(draws *d)
@@ -45,6 +66,12 @@ static int setup(void **state)
     return 0;
 }
 
+static int setup_tree(void **state)
+{
+    isa = tree_isa();
+    return setup(state);
+}
+
 /* ---- Leaving a surface --------------------------------------------------------------------------------------- */
 
 /* A random triangle and sphere of this size this far from the origin; every ray that leaves one of them, by
@@ -52,7 +79,7 @@ static int setup(void **state)
 static uint32_t self_hits(double scale, double distance, bool is_shared, uint64_t seed, uint32_t n)
 {
     draws d = {seed};
-    uint32_t hits = 0;
+    uint32_t n_hits = 0;
     enum { RAYS = 500 }; /* from each scene */
     for (uint32_t made = 0; made < n; made += RAYS) {
         scene *s = build_scene();
@@ -85,7 +112,7 @@ static uint32_t self_hits(double scale, double distance, bool is_shared, uint64_
             const ray in = ray_of(madd3(target, -3*(float)scale, way), way);
             hit h;
             if (!tracer_intersect(t, &in, &h)) continue;
-            const surface at = surface_at(s, &in, &h, neg3(way), 0);
+            const surface at = surface_of_hit(s, &in, &h, neg3(way));
             const real3 out = direction_of(&d);
             const ray next = ray_of(surface_leave(&at, out), out);
             hit again;
@@ -93,12 +120,12 @@ static uint32_t self_hits(double scale, double distance, bool is_shared, uint64_
                 continue;
             /* A ray into a sphere rightly meets its far side, 2 r cos away. */
             const float cos_inward = -dot3(out, at.normal);
-            if (h.instance < s->n_instances || again.t < (float)scale*cos_inward || cos_inward < 0) hits++;
+            if (h.instance < s->n_instances || again.t < (float)scale*cos_inward || cos_inward < 0) n_hits++;
         }
         tracer_destroy(t);
         scene_destroy(s);
     }
-    return hits;
+    return n_hits;
 }
 
 static void rays_that_leave_a_surface_do_not_meet_it(void **state)
@@ -109,12 +136,12 @@ static void rays_that_leave_a_surface_do_not_meet_it(void **state)
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             for (int is_shared = 0; is_shared < 2; is_shared++) {
-                const uint32_t hits = self_hits(scales[i], distances[j]*scales[i], is_shared, (uint64_t)(i*3 + j),
+                const uint32_t some = self_hits(scales[i], distances[j]*scales[i], is_shared, (uint64_t)(i*3 + j),
                                                 n_rays/18);
-                if (hits)
+                if (some)
                     print_message("  scale %g, distance %g, shared %d: %u\n", scales[i], distances[j]*scales[i],
-                                  is_shared, hits);
-                n_hits += hits;
+                                  is_shared, some);
+                n_hits += some;
             }
     assert_int_equal(n_hits, 0);
 }
@@ -187,7 +214,7 @@ static void instances_are_their_flattened_copies(void **state)
     scene *shared = placed(true), *flat = placed(false);
     tracer *a = trace(shared), *b = trace(flat);
     draws d = {3};
-    uint32_t hits = 0, differ = 0, backs = 0;
+    uint32_t n_hits = 0, differ = 0, backs = 0;
     for (uint32_t i = 0; i < n_rays/5; i++) {
         const real3 way = direction_of(&d);
         const ray r = ray_of(madd3(scale3(3, direction_of(&d)), -10, way), way);
@@ -195,18 +222,18 @@ static void instances_are_their_flattened_copies(void **state)
         const bool is_a = tracer_intersect(a, &r, &ha), is_b = tracer_intersect(b, &r, &hb);
         if (is_a != is_b) differ++;
         if (!is_a || !is_b) continue;
-        hits++;
+        n_hits++;
         /* Edges and grazing rays may fall to a neighbour; the distance tells 1e-4 of the ray's length. */
         if (kabs(ha.t - hb.t) > 2e-3f) differ++;
         if (ha.instance != hb.instance || ha.primitive != hb.primitive) continue;
-        const surface sa = surface_at(shared, &r, &ha, neg3(way), 0), sb = surface_at(flat, &r, &hb, neg3(way), 0);
+        const surface sa = surface_of_hit(shared, &r, &ha, neg3(way)), sb = surface_of_hit(flat, &r, &hb, neg3(way));
         backs += !sa.is_front || !sb.is_front;
         assert_true(length3(sub3(sa.position, sb.position)) < 1e-3f);
         assert_true(dot3(sa.normal, sb.normal) > 0.9999f);
     }
-    print_message("  %u hits, %u differ, %u from behind\n", hits, differ, backs);
-    assert_true(hits > n_rays/100);
-    assert_true(differ <= hits/5000);
+    print_message("  %u hits, %u differ, %u from behind\n", n_hits, differ, backs);
+    assert_true(n_hits > n_rays/100);
+    assert_true(differ <= n_hits/5000);
     assert_int_equal(backs, 0); /* closed meshes seen from outside, the mirrored one too */
     tracer_destroy(a);
     tracer_destroy(b);
@@ -247,12 +274,12 @@ static void spheres_are_met_from_outside_and_from_inside(void **state)
         assert_true(tracer_intersect(t, &out, &h));
         assert_int_equal(h.instance, 0);
         assert_true(kabs(h.t - radius) <= 1e-4f*radius);
-        surface at = surface_at(s, &out, &h, neg3(way), 0);
+        surface at = surface_of_hit(s, &out, &h, neg3(way));
         assert_false(at.is_front);
         assert_true(dot3(at.normal, way) > 0.999f);
         assert_true(tracer_intersect(t, &in, &h));
         assert_true(kabs(h.t - 3*radius) <= 1e-4f*radius);
-        at = surface_at(s, &in, &h, neg3(way), 0);
+        at = surface_of_hit(s, &in, &h, neg3(way));
         assert_true(at.is_front);
         assert_true(dot3(at.normal, way) < -0.999f);
         assert_true(tracer_occluded(t, &in));
@@ -299,6 +326,168 @@ static void a_veil_is_met_as_often_as_it_is_opaque(void **state)
     }
 }
 
+/* ---- Many rays ----------------------------------------------------------------------------------------------- */
+
+enum { MANY = 4096 };
+
+typedef struct many_rays {
+    float of[8][MANY];
+    uint32_t seed[MANY];
+} many_rays;
+
+typedef struct many_hits {
+    float t[MANY], u[MANY], v[MANY];
+    uint32_t instance[MANY], primitive[MANY], is_blocked[MANY];
+} many_hits;
+
+static rays rays_in(many_rays *r, size_t first)
+{
+    return (rays){.origin = {r->of[0] + first, r->of[1] + first, r->of[2] + first},
+                  .direction = {r->of[3] + first, r->of[4] + first, r->of[5] + first},
+                  .t_min = r->of[6] + first,
+                  .t_max = r->of[7] + first,
+                  .seed = r->seed + first};
+}
+
+/* Groups of `width` rays, from the first on. */
+static void trace_many(const tracer *t, many_rays *r, size_t width, bool is_coherent, many_hits *h)
+{
+    for (size_t first = 0; first < MANY; first += width) {
+        static float t_of[MANY], u[MANY], v[MANY];
+        static uint32_t instances[MANY], primitives[MANY], is_blocked[MANY];
+        tracer_nearest(t, width, rays_in(r, first), is_coherent, (hits){t_of, u, v, instances, primitives});
+        tracer_blocked(t, width, rays_in(r, first), is_blocked);
+        for (size_t i = 0; i < width; i++) {
+            const size_t k = first + i;
+            const bool is_met = instances[i] != NO_HIT;
+            h->t[k] = is_met ? t_of[i] : 0;
+            h->u[k] = is_met ? u[i] : 0;
+            h->v[k] = is_met ? v[i] : 0;
+            h->instance[k] = instances[i];
+            h->primitive[k] = is_met ? primitives[i] : 0;
+            h->is_blocked[k] = is_blocked[i];
+        }
+    }
+}
+
+static void aim(many_rays *r, draws *d)
+{
+    for (size_t i = 0; i < MANY; i++) {
+        const real3 way = direction_of(d), from = madd3(scale3(1.5f, direction_of(d)), -3, way);
+        const float fields[8] = {from.x, from.y, from.z, way.x, way.y, way.z, 0, i%3 ? INFINITY : 3};
+        for (int k = 0; k < 8; k++) r->of[k][i] = fields[k];
+        r->seed[i] = (uint32_t)draw_bits(d);
+    }
+}
+
+static void a_ray_meets_the_same_whoever_is_in_its_packet(void **state)
+{
+    (void)state;
+    static many_rays r, shuffled;
+    static many_hits alone, together, mixed;
+    static const char *const sets[] = {NULL, "sse2", "avx2", "avx512"};
+    for (size_t set = 0; set < sizeof sets/sizeof sets[0]; set++)
+        for (int is_small = 0; is_small < 2; is_small++) {
+            scene *s = build_scene();
+            const size_t mat = build_material(s, "lambert kd=.5", 0, false);
+            build_instance(s, build_zone(s, mat, 1, -1, is_small ? 3 : 40, is_small ? 5 : 60, false), placements[1]);
+            build_sphere(s, mat, 1, .5f, 0, .4f);
+            tracer *t = NULL;
+            if (tracer_create(s, sets[set], 1, surface_opacity, s, &t, NULL) == FACET_OK) {
+                draws d = {set};
+                aim(&r, &d);
+                trace_many(t, &r, 1, false, &alone);
+                trace_many(t, &r, 256, false, &together);
+                assert_memory_equal(&alone, &together, sizeof alone);
+                trace_many(t, &r, 1024, true, &together);
+                assert_memory_equal(&alone, &together, sizeof alone);
+                for (size_t i = 0; i < MANY; i++) { /* 1733 is prime to MANY */
+                    const size_t from = i*1733%MANY;
+                    for (int k = 0; k < 8; k++) shuffled.of[k][i] = r.of[k][from];
+                    shuffled.seed[i] = r.seed[from];
+                }
+                trace_many(t, &shuffled, 128, false, &mixed);
+                uint32_t n_met = 0;
+                for (size_t i = 0; i < MANY; i++) {
+                    const size_t from = i*1733%MANY;
+                    n_met += alone.instance[from] != NO_HIT;
+                    assert_true(mixed.t[i] == alone.t[from] && mixed.u[i] == alone.u[from] &&
+                                mixed.v[i] == alone.v[from] && mixed.instance[i] == alone.instance[from] &&
+                                mixed.primitive[i] == alone.primitive[from] &&
+                                mixed.is_blocked[i] == alone.is_blocked[from]);
+                }
+                assert_true(n_met > MANY/10);
+            }
+            tracer_destroy(t);
+            scene_destroy(s);
+        }
+}
+
+static void the_list_and_the_tree_meet_the_same(void **state)
+{
+    (void)state;
+    static many_rays r;
+    static many_hits by_list, by_tree;
+    scene *s = build_scene();
+    const size_t mat = build_material(s, "lambert kd=.5", 0, false);
+    build_instance(s, build_zone(s, mat, 1, -1, 4, 7, false), placements[2]);
+    build_sphere(s, mat, 1, .5f, 0, .4f);
+    build_sphere(s, mat, -1, 2.5f, .3f, .9f);
+    tracer *list = trace_with(s, NULL), *tree = trace_with(s, tree_isa());
+    assert_string_equal(tracer_isa(list), "any");
+    draws d = {7};
+    uint32_t n_met = 0, n_differ = 0;
+    for (int round = 0; round < 50/SAMPLE_DIVISOR + 1; round++) {
+        aim(&r, &d);
+        trace_many(list, &r, MANY, false, &by_list);
+        trace_many(tree, &r, MANY, false, &by_tree);
+        for (size_t i = 0; i < MANY; i++) {
+            n_met += by_tree.instance[i] != NO_HIT;
+            const bool is_same = by_list.instance[i] == by_tree.instance[i] &&
+                                 by_list.primitive[i] == by_tree.primitive[i] &&
+                                 by_list.is_blocked[i] == by_tree.is_blocked[i];
+            /* Rounding decides at edges and outlines alone: 1e-6 of the size, by the lines that rays could meet. */
+            if (!is_same) n_differ++;
+            else if (by_tree.instance[i] != NO_HIT)
+                assert_true(kabs(by_list.t[i] - by_tree.t[i]) <= 1e-4f &&
+                            (by_list.instance[i] == s->n_instances || (kabs(by_list.u[i] - by_tree.u[i]) <= 1e-4f &&
+                                                                       kabs(by_list.v[i] - by_tree.v[i]) <= 1e-4f)));
+        }
+    }
+    print_message("  %u met, %u differ\n", n_met, n_differ);
+    assert_true(n_met > 1000 && n_differ <= n_met/20000);
+    tracer_destroy(list);
+    tracer_destroy(tree);
+    scene_destroy(s);
+}
+
+static void all_instruction_sets_meet_the_same_of_a_list(void **state)
+{
+    (void)state;
+    static many_rays r;
+    static many_hits first, other;
+    scene *s = build_scene();
+    const size_t mat = build_material(s, "lambert kd=.5", 0, false);
+    build_instance(s, build_zone(s, mat, 1, -1, 4, 7, false), placements[2]);
+    build_sphere(s, mat, 1, .5f, 0, .4f);
+    tracer *t = trace_with(s, NULL);
+    draws d = {8};
+    aim(&r, &d);
+    for (int k = 0; k < 8; k++) r.of[k][k*64] = k & 1 ? NAN : INFINITY; /* such rays meet nothing */
+    for (size_t i = 0; facet_isa_name(i); i++) {
+        assert_int_equal(facet_isa_force(facet_isa_name(i)), FACET_OK);
+        trace_many(t, &r, MANY, false, i ? &other : &first);
+        if (i) assert_memory_equal(&first, &other, sizeof first);
+    }
+    facet_isa_force(NULL);
+    for (int k = 0; k < 6; k++) {
+        assert_int_equal(first.instance[k*64], NO_HIT);
+        assert_true(first.is_blocked[k*64]);
+    }
+    tracer_destroy(t);
+    scene_destroy(s);
+}
+
 static void unknown_instruction_sets_are_refused(void **state)
 {
     (void)state;
@@ -326,7 +515,14 @@ int main(void)
         cmocka_unit_test(a_singular_instance_is_not_there),
         cmocka_unit_test(spheres_are_met_from_outside_and_from_inside),
         cmocka_unit_test(a_veil_is_met_as_often_as_it_is_opaque),
+    };
+    const struct CMUnitTest both[] = {
+        cmocka_unit_test(a_ray_meets_the_same_whoever_is_in_its_packet),
+        cmocka_unit_test(the_list_and_the_tree_meet_the_same),
+        cmocka_unit_test(all_instruction_sets_meet_the_same_of_a_list),
         cmocka_unit_test(unknown_instruction_sets_are_refused),
     };
-    return cmocka_run_group_tests_name("tracer", tests, setup, NULL);
+    const int n_failed = cmocka_run_group_tests_name("the list", tests, setup, NULL) +
+                         cmocka_run_group_tests_name("the tree", tests, setup_tree, NULL);
+    return n_failed + cmocka_run_group_tests_name("tracer", both, setup, NULL);
 }

@@ -1,0 +1,169 @@
+/* loops_text.h: the loops of loops.h, compiled once per instruction set: RENDER_LOOPS names the table.
+ * SPDX-License-Identifier: MIT */
+#include "render/loops.h"
+#include "render/sampler_point.h"
+
+enum { BLOCK = 4*LOOP_LANES };
+
+/* Over the elements of a block that are there, in whole vectors. */
+#define EACH_LANE(i) _Pragma("omp simd") for (size_t i = 0; i < BLOCK; i++)
+
+/* ---- Rays against a list ------------------------------------------------------------------------------------- */
+
+/* A block's rays, and the nearest hit so far. */
+typedef struct ray_block {
+    float ox[BLOCK], oy[BLOCK], oz[BLOCK], dx[BLOCK], dy[BLOCK], dz[BLOCK], t_min[BLOCK];
+    float t[BLOCK], u[BLOCK], v[BLOCK]; /* t: t_max at first */
+    uint32_t which[BLOCK];              /* of the list, triangles first, or NO_HIT */
+} ray_block;
+
+static inline int is_small(float coordinate)
+{
+    return kabs(coordinate) < 1e18f;
+}
+
+/* Rays that cannot be traced, as tracer.h says, meet nothing: their t is below t_min. */
+static void load_rays(ray_block *b, rays r, size_t first)
+{
+    const vectors o = r.origin, d = r.direction;
+    EACH_LANE(i)
+    {
+        const size_t k = first + i;
+        b->ox[i] = o.x[k];
+        b->oy[i] = o.y[k];
+        b->oz[i] = o.z[k];
+        b->dx[i] = d.x[k];
+        b->dy[i] = d.y[k];
+        b->dz[i] = d.z[k];
+        b->t_min[i] = r.t_min[k];
+        const int is_finite = is_small(o.x[k]) & is_small(o.y[k]) & is_small(o.z[k]) & is_small(d.x[k]) &
+                              is_small(d.y[k]) & is_small(d.z[k]) & (r.t_min[k] >= 0);
+        b->t[i] = is_finite ? r.t_max[k] : -1.0f;
+        b->u[i] = b->v[i] = 0;
+        b->which[i] = NO_HIT;
+    }
+}
+
+/* Six times the volume between an edge and the ray, of opposite sign for the two triangles at the edge, to the last bit:
+ * no ray passes between them.  sum: of the edge's ends, seen from the origin. */
+static inline float side_of(real3 edge, real3 sum, real3 d)
+{
+    return dot3(cross3(edge, sum), d);
+}
+
+static void meet_triangle(ray_block *b, const linear_triangle *given, uint32_t index)
+{
+    const linear_triangle tri = *given;
+    EACH_LANE(i)
+    {
+        const real3 o = make3(b->ox[i], b->oy[i], b->oz[i]), d = make3(b->dx[i], b->dy[i], b->dz[i]);
+        const real3 p0 = sub3(tri.corners[0], o), p1 = sub3(tri.corners[1], o), p2 = sub3(tri.corners[2], o);
+        const float u = side_of(tri.edges[0], add3(p2, p0), d), v = side_of(tri.edges[1], add3(p0, p1), d),
+                    w = side_of(tri.edges[2], add3(p1, p2), d);
+        const float inverse = 1/dot3(tri.normal, d), t = dot3(tri.normal, p0)*inverse;
+        const int is_inside = ((u >= 0) & (v >= 0) & (w >= 0)) | ((u <= 0) & (v <= 0) & (w <= 0));
+        const float sum = (u + v) + w;
+        const int is_met = is_inside & (sum != 0) & (t > b->t_min[i]) & (t < b->t[i]);
+        b->t[i] = is_met ? t : b->t[i];
+        b->u[i] = is_met ? u/sum : b->u[i];
+        b->v[i] = is_met ? v/sum : b->v[i];
+        b->which[i] = is_met ? index : b->which[i];
+    }
+}
+
+/* The roots of |f + t d| = r from the foot of the perpendicular, which does not cancel; Haines, Gunther and
+ * Akenine-Moller, Precision improvements for ray/sphere intersection, Ray Tracing Gems, 2019. */
+static void meet_sphere(ray_block *b, const linear_sphere *given, uint32_t index)
+{
+    const linear_sphere s = *given;
+    EACH_LANE(i)
+    {
+        const real3 o = make3(b->ox[i], b->oy[i], b->oz[i]), d = make3(b->dx[i], b->dy[i], b->dz[i]);
+        const real3 f = sub3(o, s.center);
+        const float a = dot3(d, d), towards = -dot3(f, d);
+        const real3 foot = madd3(f, towards/a, d);
+        const float rest = s.radius*s.radius - dot3(foot, foot);
+        const float root = ksqrt(a*kmax(rest, 0));
+        const float q = towards + (towards > 0 ? root : -root);
+        const float c = (dot3(f, f) - s.radius*s.radius)/q, e = q/a;
+        const float near = kmin(c, e), far = kmax(c, e);
+        const float t = near > b->t_min[i] ? near : far;
+        const int is_met = (rest > 0) & (t > b->t_min[i]) & (t < b->t[i]);
+        b->t[i] = is_met ? t : b->t[i];
+        b->which[i] = is_met ? index : b->which[i];
+    }
+}
+
+static void meet_all(ray_block *b, const linear_scene *s)
+{
+    for (uint32_t i = 0; i < s->n_triangles; i++) meet_triangle(b, &s->triangles[i], i);
+    for (uint32_t i = 0; i < s->n_spheres; i++) meet_sphere(b, &s->spheres[i], s->n_triangles + i);
+}
+
+static void nearest(const linear_scene *s, size_t n, rays r, hits h)
+{
+    for (size_t first = 0; first < n; first += BLOCK) {
+        ray_block b;
+        load_rays(&b, r, first);
+        meet_all(&b, s);
+        const size_t some = n - first < BLOCK ? n - first : BLOCK;
+        for (size_t i = 0; i < some; i++) {
+            const uint32_t which = b.which[i];
+            const size_t k = first + i;
+            h.t[k] = b.t[i];
+            h.u[k] = b.u[i];
+            h.v[k] = b.v[i];
+            const bool is_triangle = which < s->n_triangles;
+            h.instance[k] = is_triangle ? s->triangles[which].instance : which == NO_HIT ? NO_HIT : s->sphere_instance;
+            h.primitive[k] = is_triangle ? s->triangles[which].primitive : which - s->n_triangles;
+        }
+    }
+}
+
+static void blocked(const linear_scene *s, size_t n, rays r, uint32_t *is_blocked)
+{
+    for (size_t first = 0; first < n; first += BLOCK) {
+        ray_block b;
+        load_rays(&b, r, first);
+        EACH_LANE(i) is_blocked[first + i] = b.t[i] < b.t_min[i];
+        meet_all(&b, s);
+        EACH_LANE(i) is_blocked[first + i] |= b.which[i] != NO_HIT;
+    }
+}
+
+/* ---- Samples ------------------------------------------------------------------------------------------------- */
+
+static void points(const sampler *given, size_t n, const uint32_t *pixel, const uint32_t *index, uint32_t group,
+                   uint32_t *const u[3])
+{
+    const sampler s = *given;
+    for (size_t first = 0; first < n; first += BLOCK) {
+        uint32_t seed[BLOCK], place[BLOCK], third[BLOCK];
+        uint32_t *restrict const x = u[0] + first, *restrict const y = u[1] + first, *restrict const z = u[2] + first;
+        EACH_LANE(i) seed[i] = seed_for(pixel[first + i], group);
+        if (s.kind == SAMPLER_RANDOM) {
+            EACH_LANE(i)
+            {
+                x[i] = random_fraction(index[first + i], seed[i], 0);
+                y[i] = random_fraction(index[first + i], seed[i], 1);
+                z[i] = random_fraction(index[first + i], seed[i], 2);
+            }
+            continue;
+        }
+        EACH_LANE(i)
+        {
+            place[i] = shuffled_index(index[first + i], seed[i], s.index_mask);
+            third[i] = 0;
+        }
+        for (uint32_t bit = 0; s.index_mask >> bit; bit++)
+            EACH_LANE(i) third[i] = sobol_third_digit(third[i], place[i], bit);
+        EACH_LANE(i)
+        {
+            x[i] = scrambled_fraction(place[i], seed[i], 0);
+            y[i] = scrambled_fraction(sobol_second(place[i]), seed[i], 1);
+            z[i] = scrambled_fraction(third[i], seed[i], 2);
+        }
+    }
+}
+
+const render_loops RENDER_LOOPS = {.name = RENDER_LOOPS_NAME, .nearest = nearest, .blocked = blocked, .points = points};

@@ -1,0 +1,91 @@
+/* sampler_point.h: one point of the sampler, for a single call and for the loops over many.
+ *
+ * [burley20] Burley, Practical hash-based Owen scrambling, JCGT 2020.
+ * SPDX-License-Identifier: MIT */
+#pragma once
+
+#include <stdint.h>
+
+/* The first three Sobol' dimensions of a point, each with its binary digits in reverse: the first digit is the lowest
+ * bit.  The first dimension is van der Corput's, the index itself. */
+
+/* The second, of the primitive polynomial x + 1: bit k of the index adds Pascal's triangle modulo 2, that is, every
+ * digit j whose binary digits are a subset of those of k. */
+static inline uint32_t sobol_second(uint32_t index)
+{
+    index ^= (index & 0xaaaaaaaau) >> 1;
+    index ^= (index & 0xccccccccu) >> 2;
+    index ^= (index & 0xf0f0f0f0u) >> 4;
+    index ^= (index & 0xff00ff00u) >> 8;
+    return index ^ index >> 16;
+}
+
+/* The third, of x^2 + x + 1 (m = 1, 3): v_k = v_{k-1} ^ v_{k-2} ^ v_{k-2} >> 2 before reversal (Joe and Kuo 2008): what
+ * bit k of the index adds. */
+static const uint32_t sobol_third_columns[32] = {
+    0x00000001u, 0x00000003u, 0x00000006u, 0x00000009u, 0x00000017u, 0x0000003au, 0x00000071u, 0x000000a3u,
+    0x00000116u, 0x00000339u, 0x00000677u, 0x000009aau, 0x00001601u, 0x00003903u, 0x00007706u, 0x0000aa09u,
+    0x00010117u, 0x0003033au, 0x00060671u, 0x000909a3u, 0x00171616u, 0x003a3939u, 0x00717777u, 0x00a3aaaau,
+    0x01170001u, 0x033a0003u, 0x06710006u, 0x09a30009u, 0x16160017u, 0x3939003au, 0x77770071u, 0xaaaa00a3u};
+
+static inline uint32_t sobol_third_digit(uint32_t digits, uint32_t index, uint32_t bit)
+{
+    return digits ^ ((0u - (index >> bit & 1u)) & sobol_third_columns[bit]);
+}
+
+static inline uint32_t reverse_bits(uint32_t x)
+{
+    x = (x >> 1 & 0x55555555u) | (x & 0x55555555u) << 1;
+    x = (x >> 2 & 0x33333333u) | (x & 0x33333333u) << 2;
+    x = (x >> 4 & 0x0f0f0f0fu) | (x & 0x0f0f0f0fu) << 4;
+    x = (x >> 8 & 0x00ff00ffu) | (x & 0x00ff00ffu) << 8;
+    return x >> 16 | x << 16;
+}
+
+/* A permutation in which each bit is flipped by a hash of the bits below it: Owen scrambling of a number whose
+ * bits are reversed.  [burley20, section 3]; the multipliers are Vegdahl's. */
+static inline uint32_t scramble_reversed(uint32_t x, uint32_t seed)
+{
+    x ^= x*0x3d20adeau;
+    x += seed;
+    x *= seed >> 16 | 1u;
+    x ^= x*0x05526c56u;
+    x ^= x*0x53a22864u;
+    return x;
+}
+
+/* A permutation of all words without a pattern to see; the constants are Wellons's. */
+static inline uint32_t mix_bits(uint32_t x)
+{
+    x ^= x >> 16;
+    x *= 0x7feb352du;
+    x ^= x >> 15;
+    x *= 0x846ca68bu;
+    return x ^ x >> 16;
+}
+
+/* A word for each of several purposes of the same seed. */
+static inline uint32_t seed_for(uint32_t seed, uint32_t purpose)
+{
+    return mix_bits(seed + purpose*0x9e3779b9u);
+}
+
+/* The sample's place in the group's own order, by Owen scrambling of the index: aligned runs stay runs, and so
+ * stratified, but which stratum a sample gets depends on all of its index.  Were it a function of the low digits alone,
+ * that of one group would determine that of every other, and no pixel would converge. */
+static inline uint32_t shuffled_index(uint32_t index, uint32_t seed, uint32_t mask)
+{
+    return reverse_bits(scramble_reversed(reverse_bits(index), seed)) & mask;
+}
+
+/* The fraction of a dimension's digits. */
+static inline uint32_t scrambled_fraction(uint32_t digits, uint32_t seed, uint32_t dimension)
+{
+    return reverse_bits(scramble_reversed(digits, seed_for(seed, dimension + 1)));
+}
+
+/* Three independent numbers. */
+static inline uint32_t random_fraction(uint32_t index, uint32_t seed, uint32_t dimension)
+{
+    return seed_for(seed_for(seed, index), dimension);
+}
