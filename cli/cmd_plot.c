@@ -204,6 +204,11 @@ const command plot_command = {
                    "  albedo         the share of light that is reflected, over the angle of the view\n"
                    "  theta-h        f over the angle between half vector and normal\n"
                    "  theta-d        f over the angle between light and half vector\n"
+                   "  slice          picture of f over both, at phi_d = 90 degrees, with a gamma of 2.2\n"
+                   "  lobe           f cos over all directions of light, in three dimensions\n"
+                   "  heightfield    a quantity over two variables, in three dimensions\n"
+                   "  samples        directions that the sampler draws\n"
+                   "  convergence    the error of the sampled albedo against the number of samples\n"
                    "Curves of several materials share a chart; the last five and slice give each its own panel.\n",
     .examples = "  facet plot 'ggx alpha=.2' 'beckmann alpha=.2' --of D --log -o D.svg\n"
                 "  facet plot 'ggx alpha=.3' --of fcos --theta 0,45,80 --polar -o lobes.pdf\n"

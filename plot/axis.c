@@ -56,8 +56,9 @@ static void fit_linear(axis *a, double low, double high)
         high += 0.5*size;
     }
     const double step = step_above((high - low)/8, a->scale);
-    a->low = step*floor(low/step + 1e-9);
-    a->high = step*ceil(high/step - 1e-9);
+    /* A value may lie beyond the end by what nobody sees. */
+    a->low = step*floor(low/step + 1e-6);
+    a->high = step*ceil(high/step - 1e-6);
 }
 
 axis axis_fit(axis a, double low, double high)

@@ -16,6 +16,8 @@ series series_make(size_t k, const char *label, size_t n, const double *x, const
 static const text_style legend_style = {.size = LABEL_SIZE, .ink = {0.1, 0.1, 0.1, 1}, .down = 0.5};
 static const double KEY = 2.6, KEY_GAP = 0.5, COLUMN_GAP = 1.8, ROW = 1.35; /* [em] */
 
+enum { LEGEND_MOST = 128 };
+
 static void draw_key(canvas *page, point left, const series *s)
 {
     const double em = canvas_em(page);
@@ -24,36 +26,47 @@ static void draw_key(canvas *page, point left, const series *s)
     else canvas_segment(page, left, (point){left.x + KEY*em, left.y}, (pen){s->ink, LINE_WIDTH, s->dash});
 }
 
+typedef struct legend {
+    const series *items[LEGEND_MOST];
+    double widths[LEGEND_MOST]; /* of the labels */
+    size_t n;
+} legend;
+
+/* The width with this many rows, filled column by column. */
+static double legend_width(const legend *l, size_t n_rows, double other, double columns[LEGEND_MOST])
+{
+    double width = 0;
+    for (size_t first = 0; first < l->n; first += n_rows) {
+        double widest = 0;
+        for (size_t i = first; i < l->n && i < first + n_rows; i++) widest = fmax(widest, l->widths[i]);
+        columns[first/n_rows] = widest + other;
+        width += widest + other;
+    }
+    return width;
+}
+
 void legend_draw(canvas *page, box *place, const series *items, size_t n_items)
 {
-    const double em = canvas_em(page);
-    double widest = 0;
-    size_t n = 0;
-    for (size_t i = 0; i < n_items; i++) {
-        if (!items[i].label) continue;
-        widest = fmax(widest, canvas_text_width(page, legend_style, items[i].label));
-        n++;
-    }
-    if (n == 0) return;
-    const double key = (KEY + KEY_GAP)*em, room = place->width - key;
+    const double em = canvas_em(page), key = (KEY + KEY_GAP)*em, gap = COLUMN_GAP*em;
+    legend l = {.n = 0};
     text_style style = legend_style;
-    if (widest > room) {
-        style.size *= room/widest;
-        widest = room;
-    }
-    const double column = key + widest + COLUMN_GAP*em;
-    const double fit = floor((place->width + COLUMN_GAP*em)/column);
-    size_t n_columns = fit < 1 ? 1 : fit > (double)n ? n : (size_t)fit;
-    const size_t n_rows = (n + n_columns - 1)/n_columns;
-    n_columns = (n + n_rows - 1)/n_rows;
-    const double left = place->x + 0.5*(place->width - (double)n_columns*column + COLUMN_GAP*em);
-    size_t k = 0;
-    for (size_t i = 0; i < n_items; i++) {
+    for (size_t i = 0; i < n_items && l.n < LEGEND_MOST; i++) {
         if (!items[i].label) continue;
-        const point at = {left + (double)(k/n_rows)*column, place->y + ((double)(k%n_rows) + 0.5)*ROW*em};
-        draw_key(page, at, &items[i]);
-        canvas_text(page, (point){at.x + key, at.y}, style, items[i].label);
-        k++;
+        l.items[l.n] = &items[i];
+        l.widths[l.n++] = canvas_text_width(page, style, items[i].label);
+    }
+    if (l.n == 0) return;
+    double columns[LEGEND_MOST], width = 0;
+    size_t n_rows = 1;
+    while ((width = legend_width(&l, n_rows, key + gap, columns)) - gap > place->width && n_rows < l.n) n_rows++;
+    const double room = place->width - key, needed = columns[0] - key - gap;
+    if (n_rows == l.n && needed > room) style.size *= room/needed; /* one column, and too wide */
+    double x = fmax(place->x, place->x + 0.5*(place->width - width + gap));
+    for (size_t i = 0; i < l.n; i++) {
+        if (i > 0 && i%n_rows == 0) x += columns[i/n_rows - 1];
+        const double y = place->y + ((double)(i%n_rows) + 0.5)*ROW*em;
+        draw_key(page, (point){x, y}, l.items[i]);
+        canvas_text(page, (point){x + key, y}, style, l.items[i]->label);
     }
     place->y += (double)n_rows*ROW*em;
     place->height -= (double)n_rows*ROW*em;
@@ -122,7 +135,7 @@ static frame fit_frame(canvas *page, box place, const chart *c)
 
 void chart_draw(canvas *page, box place, const chart *c)
 {
-    frame_title(page, &place, c->title);
+    frame_title(page, &place, place.x + 0.5*place.width, c->title);
     legend_draw(page, &place, c->items, c->n_items);
     const frame f = fit_frame(page, place, c);
     frame_draw_grid(page, &f);

@@ -34,7 +34,7 @@ typedef struct chart {
 /* Draws the chart in `place`; ranges that are left open hold all data. */
 void chart_draw(canvas *page, box place, const chart *c);
 
-/* The legend of the items in as many columns as fit at the top of *place, which becomes what is left below. */
+/* The legend of the items, up to 128, in as few rows as fit at the top of *place, which becomes what is left below. */
 void legend_draw(canvas *page, box *place, const series *items, size_t n_items);
 
 #ifdef __cplusplus

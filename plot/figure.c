@@ -23,6 +23,11 @@ const figure_kind figure_kinds[FIGURE_KINDS] = {
     {"albedo", "the share of light that is reflected, over the angle of the view", draw_albedo, false, 800, 600, 0},
     {"theta-h", "f over theta_h, for a theta_d given by --theta", draw_theta_h, false, 800, 600, 0},
     {"theta-d", "f over theta_d, for a theta_h given by --theta", draw_theta_d, false, 800, 600, 0},
+    {"slice", "picture of f over theta_h and theta_d at phi_d = 90 degrees", draw_slice, true, 420, 440, 0},
+    {"lobe", "f cos over all directions of light, in three dimensions", draw_lobe, true, 480, 440, 45},
+    {"heightfield", "a quantity over two variables, in three dimensions", draw_height_field, true, 480, 440, 0},
+    {"samples", "directions that the sampler draws", draw_samples, true, 420, 440, 45},
+    {"convergence", "the error of the albedo against the number of samples", draw_convergence, false, 800, 600, 45},
 };
 
 /* ---- Pages ------------------------------------------------------------------------------------- */
@@ -44,7 +49,7 @@ void figure_size(const figure_kind *kind, size_t n_materials, double *width, dou
 static facet_status draw_panels(canvas *page, box whole, const figure_kind *kind, const figure *f, facet_error *why)
 {
     facet_status status = FACET_OK;
-    frame_title(page, &whole, f->title);
+    frame_title(page, &whole, whole.x + 0.5*whole.width, f->title);
     for (size_t k = 0; k < f->n_materials && !status; k++) {
         const box place = panel_place(whole, f->n_materials, column_count(kind, f->n_materials), k);
         const double edge = 0.5*canvas_em(page);
@@ -90,20 +95,21 @@ double figure_channel_of(const figure *f, const double rgb[3])
     return 0.2126*rgb[0] + 0.7152*rgb[1] + 0.0722*rgb[2];
 }
 
+void figure_around(double theta, double phi, double away, double turn, double v[3])
+{
+    double d[3];
+    figure_direction(away, turn, d);
+    const double ct = cos(theta*DEGREE), st = sin(theta*DEGREE), cp = cos(phi*DEGREE), sp = sin(phi*DEGREE);
+    const double x = ct*d[0] + st*d[2];
+    v[0] = cp*x - sp*d[1];
+    v[1] = sp*x + cp*d[1];
+    v[2] = ct*d[2] - st*d[0];
+}
+
 bool figure_half_angles(double theta_h, double phi_h, double theta_d, double phi_d, double wi[3], double wo[3])
 {
-    double d[3], h[3];
-    figure_direction(theta_d, phi_d, d);
-    figure_direction(theta_h, phi_h, h);
-    /* d is turned by theta_h about y, then by phi_h about z. */
-    const double ct = cos(theta_h*DEGREE), st = sin(theta_h*DEGREE), cp = cos(phi_h*DEGREE),
-                 sp = sin(phi_h*DEGREE);
-    const double x = ct*d[0] + st*d[2];
-    wi[0] = cp*x - sp*d[1];
-    wi[1] = sp*x + cp*d[1];
-    wi[2] = ct*d[2] - st*d[0];
-    const double along = wi[0]*h[0] + wi[1]*h[1] + wi[2]*h[2];
-    for (int k = 0; k < 3; k++) wo[k] = 2*along*h[k] - wi[k];
+    figure_around(theta_h, phi_h, theta_d, phi_d, wi);
+    figure_around(theta_h, phi_h, -theta_d, phi_d, wo);
     return wi[2] > 0 && wo[2] > 0;
 }
 

@@ -56,7 +56,7 @@ typedef struct figure_kind {
     double theta;         /* default [degree] */
 } figure_kind;
 
-enum { FIGURE_KINDS = 10 };
+enum { FIGURE_KINDS = 15 };
 extern const figure_kind figure_kinds[FIGURE_KINDS];
 
 /* The size of the whole by default. */
@@ -68,13 +68,18 @@ facet_status figure_write(const figure_kind *kind, const figure *f, double width
 
 /* ---- For the kinds ----------------------------------------------------------------------------- */
 
-figure_draw draw_D, draw_Lambda, draw_G1, draw_F, draw_f, draw_fcos, draw_pdf, draw_albedo, draw_theta_h, draw_theta_d;
+figure_draw draw_D, draw_Lambda, draw_G1, draw_F, draw_f, draw_fcos, draw_pdf, draw_albedo, draw_theta_h, draw_theta_d,
+    draw_slice, draw_lobe, draw_height_field, draw_samples, draw_convergence;
 
 /* A unit vector; theta may be negative [degrees]. */
 void figure_direction(double theta, double phi, double v[3]);
 
 /* The figure's channel of a colour. */
 double figure_channel_of(const figure *f, const double rgb[3]);
+
+/* The direction at `away` from an axis and turned about it by `turn`; the axis is theta from the normal, towards phi;
+ * turn 0 is in that plane [degrees]. */
+void figure_around(double theta, double phi, double away, double turn, double v[3]);
 
 /* wi and wo by the half vector and the difference angles [degrees] (Rusinkiewicz 1998); false if one of them is below
  * the surface. */

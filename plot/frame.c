@@ -20,13 +20,14 @@ box panel_place(box whole, size_t n, size_t n_columns, size_t k)
     return (box){whole.x + (double)(k%n_columns)*width, whole.y + (double)(k/n_columns)*height, width, height};
 }
 
-void frame_title(canvas *page, box *place, const char *title)
+void frame_title(canvas *page, box *place, double x, const char *title)
 {
     if (!title) return;
     const double em = canvas_em(page), width = canvas_text_width(page, title_style, title);
     text_style style = title_style;
-    if (width > place->width) style.size *= place->width/width;
-    canvas_text(page, (point){place->x + 0.5*place->width, place->y + 0.5*em}, style, title);
+    const double most = 2*fmin(x - place->x, place->x + place->width - x);
+    if (width > most) style.size *= most/width;
+    canvas_text(page, (point){x, place->y + 0.5*em}, style, title);
     place->y += 2*em;
     place->height -= 2*em;
 }

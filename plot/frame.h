@@ -17,8 +17,9 @@ extern "C" {
 /* The k-th of n places of one shape, in rows of n_columns from the top left. */
 box panel_place(box whole, size_t n, size_t n_columns, size_t k);
 
-/* Draws the title (NULL: none) at the top of *place, which becomes what is left below. */
-void frame_title(canvas *page, box *place, const char *title);
+/* Draws the title (NULL: none) at the top of *place, above the middle of what is at x; *place becomes what is left
+ * below. */
+void frame_title(canvas *page, box *place, double x, const char *title);
 
 typedef struct frame {
     axis x, y;  /* fitted */

@@ -40,14 +40,22 @@ static colour bar_cell(const void *context, size_t column, size_t row)
     return place_colour(context, 1 - ((double)row + 0.5)/BAR_STEPS);
 }
 
+/* A frame below a title that is above its middle. */
+static frame make_titled(canvas *page, box place, const char *title, axis x, axis y)
+{
+    const axis fitted[2] = {axis_fit(x, 0, 1), axis_fit(y, 0, 1)};
+    const box inside = frame_make(page, place, fitted[0], fitted[1]).inside;
+    frame_title(page, &place, inside.x + 0.5*inside.width, title);
+    return frame_make(page, place, fitted[0], fitted[1]);
+}
+
 void heatmap_draw(canvas *page, box place, const heatmap *h)
 {
     const double em = canvas_em(page);
     const scaled s = {h, fit_values(h)};
-    frame_title(page, &place, h->title);
     box left = place;
     left.width -= frame_label_width(page, &s.z, place.height) + (BAR_GAP + BAR + (h->z.name ? 2.2 : 0.7))*em;
-    const frame f = frame_make(page, left, axis_fit(h->x, 0, 1), axis_fit(h->y, 0, 1));
+    const frame f = make_titled(page, left, h->title, h->x, h->y);
     canvas_cells(page, f.inside, h->n_columns, h->n_rows, value_cell, &s);
     frame_draw(page, &f);
     const box bar = {left.x + left.width + BAR_GAP*em, f.inside.y, BAR*em, f.inside.height};
@@ -58,8 +66,7 @@ void heatmap_draw(canvas *page, box place, const heatmap *h)
 
 void picture_draw(canvas *page, box place, const picture *p)
 {
-    frame_title(page, &place, p->title);
-    frame f = frame_make(page, place, axis_fit(p->x, 0, 1), axis_fit(p->y, 0, 1));
+    frame f = make_titled(page, place, p->title, p->x, p->y);
     if (p->is_square) {
         const double side = fmin(f.inside.width, f.inside.height);
         f.inside.x += 0.5*(f.inside.width - side);

@@ -35,7 +35,7 @@ static void draw_grid(canvas *page, const dial *d)
 {
     const double em = canvas_em(page);
     const pen thin = {LIGHT_GREY, 0.06, SOLID};
-    const axis_ticks t = axis_make_ticks(&d->y, 6);
+    const axis_ticks t = axis_make_ticks(&d->y, 8);
     for (size_t i = 0; i < t.n; i++)
         if (t.ticks[i].label[0]) draw_ring(page, d, axis_place(&d->y, t.ticks[i].value), thin);
     const int end = d->is_whole ? 180 : 90;
@@ -54,7 +54,7 @@ static void draw_grid(canvas *page, const dial *d)
 static void draw_labels(canvas *page, const dial *d, const char *name)
 {
     const double em = canvas_em(page);
-    const axis_ticks t = axis_make_ticks(&d->y, 6);
+    const axis_ticks t = axis_make_ticks(&d->y, 8);
     for (size_t i = 0; i < t.n; i++) {
         const double share = axis_place(&d->y, t.ticks[i].value);
         const point at = {d->centre.x + share*d->radius, d->centre.y};
@@ -93,7 +93,7 @@ static axis fit_distance(const chart *c)
 void polar_draw(canvas *page, box place, const chart *c)
 {
     const double em = canvas_em(page), side = 3*em; /* for the labels of angles */
-    frame_title(page, &place, c->title);
+    frame_title(page, &place, place.x + 0.5*place.width, c->title);
     legend_draw(page, &place, c->items, c->n_items);
     dial d = {.is_whole = c->x.high > 90, .y = fit_distance(c)};
     const double below = d.is_whole ? side : 3.4*em, height = place.height - side - below;
