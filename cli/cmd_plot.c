@@ -86,6 +86,17 @@ static figure_channel channel_of(const char *name)
     return *name == 'r' ? CHANNEL_RED : *name == 'g' ? CHANNEL_GREEN : *name == 'b' ? CHANNEL_BLUE : CHANNEL_LUMINANCE;
 }
 
+static int check_kind(const settings *s, const figure_kind *kind)
+{
+    const bool is_log_wrong = s->is_log && !(kind->features & FIGURE_LOG);
+    if (is_log_wrong || (s->is_polar && !(kind->features & FIGURE_POLAR)))
+        return fail(EXIT_USAGE, NULL, is_log_wrong ? "--log" : "--polar", "is not for --of %s; leave it out",
+                    kind->name);
+    if (s->thetas.n > 1 && !(kind->features & FIGURE_VIEWS))
+        return fail(EXIT_USAGE, NULL, "--theta", "has %zu angles; --of %s takes one", s->thetas.n, kind->name);
+    return 0;
+}
+
 static int draw(const settings *s, const figure_kind *kind, figure *f, const char *command_line)
 {
     double width, height;
@@ -98,10 +109,9 @@ static int draw(const settings *s, const figure_kind *kind, figure *f, const cha
         f->thetas = &kind->theta;
         f->n_thetas = 1;
     }
-    char title[256];
-    snprintf(title, sizeof title, "%s: %s", kind->name, kind->meaning);
-    const image_text texts[] = {
-        {"Title", f->title ? f->title : title}, {"facet:version", facet_version()}, {"facet:command", command_line}};
+    const image_text texts[] = {{"Title", f->title ? f->title : kind->name},
+                                {"facet:version", facet_version()},
+                                {"facet:command", command_line}};
     facet_error why = {0};
     const facet_status status = figure_write(kind, f, width, height, s->out, texts, 3, &why);
     if (!status) return 0;
@@ -120,6 +130,7 @@ static int run(int argc, char **argv)
     if ((status = check_settings(&s, n))) return status;
     const figure_kind *kind = find_kind(s.of);
     if (!kind) return EXIT_USAGE;
+    if ((status = check_kind(&s, kind))) return status;
     figure f = {.n_materials = n,
                 .title = s.title,
                 .thetas = s.thetas.items,

@@ -57,8 +57,8 @@ static void fit_linear(axis *a, double low, double high)
     }
     const double step = step_above((high - low)/8, a->scale);
     /* A value may lie beyond the end by what nobody sees. */
-    a->low = step*floor(low/step + 1e-6);
-    a->high = step*ceil(high/step - 1e-6);
+    a->low = step*floor(low/step + 2e-3);
+    a->high = step*ceil(high/step - 2e-3);
 }
 
 axis axis_fit(axis a, double low, double high)
@@ -102,23 +102,32 @@ static void add_tick(axis_ticks *t, double value, const char *label)
     snprintf(t->ticks[t->n++].label, AXIS_LABEL_CAP, "%s", label);
 }
 
+/* The label of k times the step; size: of the largest value on the axis. */
+static void print_label(char label[AXIS_LABEL_CAP], double value, double step, double size)
+{
+    char number[AXIS_LABEL_CAP];
+    const int n_digits = (int)ceil(log10(size/step) - 1e-9) + 1; /* that tell the ticks apart */
+    const int n_decimals = step < 1 && value != 0 ? (int)ceil(-log10(step) - 1e-9) : 0;
+    const bool is_plain = value == 0 || (size < 1e5 && size >= 1e-3 && n_decimals < 12);
+    if (is_plain) snprintf(number, sizeof number, "%.*f", n_decimals, value);
+    else snprintf(number, sizeof number, "%.*e", n_digits > 2 && n_digits < 12 ? n_digits - 1 : 0, value);
+    set_label(label, number);
+}
+
 static axis_ticks linear_ticks(const axis *a, int most)
 {
     axis_ticks t = {0};
-    /* most labels have most - 1 steps between them; one end may lie between ticks. */
-    const double step = step_above((a->high - a->low)/(most - 1), a->scale);
-    const double first = ceil(a->low/step - 1e-9), last = floor(a->high/step + 1e-9);
     const double size = fmax(fabs(a->low), fabs(a->high));
-    const int n_digits = (int)ceil(log10(size/step) - 1e-9) + 1; /* that tell the ticks apart */
-    for (double k = first; k <= last && t.n < AXIS_MOST_TICKS; k++) {
-        char number[AXIS_LABEL_CAP], label[AXIS_LABEL_CAP];
-        const double value = k == 0 ? 0 : k*step; /* no -0 */
-        const bool is_plain = value == 0 || (size < 1e5 && size >= 1e-3);
-        const int n_decimals = step < 1 ? (int)ceil(-log10(step) - 1e-9) : 0;
-        if (is_plain && n_decimals < 12) snprintf(number, sizeof number, "%.*f", value == 0 ? 0 : n_decimals, value);
-        else snprintf(number, sizeof number, "%.*e", n_digits > 2 && n_digits < 12 ? n_digits - 1 : 0, value);
-        set_label(label, number);
-        add_tick(&t, value, label);
+    /* n labels have n - 1 steps between them.  A short range may lie between two ticks: then steps get smaller. */
+    for (int n = most; t.n == 0; n++) {
+        const double step = step_above((a->high - a->low)/(n - 1), a->scale);
+        const double first = ceil(a->low/step - 1e-9), last = floor(a->high/step + 1e-9);
+        for (double k = first; k <= last && t.n < AXIS_MOST_TICKS; k++) {
+            char label[AXIS_LABEL_CAP];
+            const double value = k == 0 ? 0 : k*step; /* no -0 */
+            print_label(label, value, step, size);
+            add_tick(&t, value, label);
+        }
     }
     return t;
 }

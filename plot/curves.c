@@ -31,7 +31,7 @@ static void choose_angles(curve *c, const curve_kind *kind, double low, double t
     const int n_even = kind->n_angles ? kind->n_angles : EVEN;
     for (int i = 0; i <= n_even; i++) c->x[c->n++] = low + (kind->high - low)*i/n_even;
     if (kind->n_angles) return;
-    for (int k = 0; k < (kind->has_views ? MOST_CENTRES : 1); k++)
+    for (int k = 0; k < (kind->view ? MOST_CENTRES : 1); k++)
         for (int i = 0; i < 2*NEAR; i++) {
             const double offset = pow(10, -3 + 4.2*(double)(i/2)/(NEAR - 1));
             const double angle = centres[k] + (i%2 ? offset : -offset);
@@ -46,9 +46,10 @@ static series make_curve(curve *c, const figure *f, const curve_kind *kind, cons
     c->n = 0;
     choose_angles(c, kind, f->is_polar && kind->is_symmetric ? -kind->high : kind->low, theta);
     value_function *value = is_other ? kind->other : kind->value;
-    for (size_t i = 0; i < c->n; i++) c->y[i] = value(f, m, theta, c->x[i]);
-    char view[32] = "";
-    if (kind->has_views && f->n_thetas > 1) snprintf(view, sizeof view, ", %g°", theta);
+    const double scale = kind->scale && !is_other ? kind->scale(f, m, theta) : 1;
+    for (size_t i = 0; i < c->n; i++) c->y[i] = value(f, m, theta, c->x[i])/scale;
+    char view[64] = "";
+    if (kind->view && f->n_thetas > 1) snprintf(view, sizeof view, ", %s%g°", kind->view, theta);
     const char *suffix = !kind->other ? "" : is_other ? kind->other_suffix : kind->suffix;
     snprintf(c->label, sizeof c->label, "%s%s%s", m->label, view, suffix);
     return series_make(0, c->label, c->n, c->x, c->y);
@@ -56,7 +57,7 @@ static series make_curve(curve *c, const figure *f, const curve_kind *kind, cons
 
 facet_status draw_curves(canvas *page, box place, const figure *f, const curve_kind *kind, facet_error *why)
 {
-    const size_t n_views = kind->has_views ? f->n_thetas : 1, n_each = kind->other ? 2 : 1;
+    const size_t n_views = kind->view ? f->n_thetas : 1, n_each = kind->other ? 2 : 1;
     const size_t n = f->n_materials*n_views*n_each;
     curve *curves = malloc(n*sizeof *curves);
     series *items = malloc(n*sizeof *items);

@@ -13,12 +13,13 @@ typedef double value_function(const figure *f, const figure_material *m, double 
 
 typedef struct curve_kind {
     value_function *value;
-    value_function *other;             /* a second curve of the same colour, dashed; NULL: none */
-    const char *suffix, *other_suffix; /* of the labels, if there are two */
-    const char *title;                 /* NULL: none */
+    value_function *other; /* a second curve of the same colour, dashed; NULL: none */
+    double (*scale)(const figure *f, const figure_material *m, double theta); /* divides value's; NULL: 1 */
+    const char *suffix, *other_suffix;                                        /* of the labels, if there are two */
+    const char *title;                                                        /* NULL: none */
     const char *x_name, *y_name;
     double low, high;  /* of x */
-    bool has_views;    /* a curve for each theta */
+    const char *view;  /* "θₒ = ": there is a curve for each theta, named so; NULL: there is one */
     bool is_symmetric; /* a polar plot shows -high to high */
     int n_angles;      /* 0: as many as narrow lobes need */
 } curve_kind;

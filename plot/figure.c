@@ -12,36 +12,35 @@
 static const double DEGREE = 3.14159265358979323846/180;
 
 const figure_kind figure_kinds[FIGURE_KINDS] = {
-    {"D", "density of microfacet normals over their angle", draw_D, false, 800, 600, 0},
-    {"Lambda", "Smith's Lambda over the angle of a direction", draw_Lambda, false, 800, 600, 0},
-    {"G1", "Smith's masking over the angle of a direction", draw_G1, false, 800, 600, 0},
-    {"F", "Fresnel's term over the angle between light and half vector", draw_F, false, 800, 600, 0},
-    {"f", "the BRDF over the angle of the light, in the plane of the view", draw_f, false, 800, 600, 45},
-    {"fcos", "the same times |cos theta_i|", draw_fcos, false, 800, 600, 45},
-    {"pdf", "the sampler's density (dashed) against f cos over albedo, which it should follow", draw_pdf, false, 800,
-     600, 45},
-    {"albedo", "the share of light that is reflected, over the angle of the view", draw_albedo, false, 800, 600, 0},
-    {"theta-h", "f over theta_h, for a theta_d given by --theta", draw_theta_h, false, 800, 600, 0},
-    {"theta-d", "f over theta_d, for a theta_h given by --theta", draw_theta_d, false, 800, 600, 0},
-    {"slice", "picture of f over theta_h and theta_d at phi_d = 90 degrees", draw_slice, true, 420, 440, 0},
-    {"lobe", "f cos over all directions of light, in three dimensions", draw_lobe, true, 480, 440, 45},
-    {"heightfield", "a quantity over two variables, in three dimensions", draw_height_field, true, 480, 440, 0},
-    {"samples", "directions that the sampler draws", draw_samples, true, 420, 440, 45},
-    {"convergence", "the error of the albedo against the number of samples", draw_convergence, false, 800, 600, 45},
+    {"D", draw_D, FIGURE_LOG | FIGURE_POLAR, 800, 600, 0},
+    {"Lambda", draw_Lambda, FIGURE_LOG | FIGURE_POLAR, 800, 600, 0},
+    {"G1", draw_G1, FIGURE_LOG | FIGURE_POLAR, 800, 600, 0},
+    {"F", draw_F, FIGURE_LOG | FIGURE_POLAR, 800, 600, 0},
+    {"f", draw_f, FIGURE_LOG | FIGURE_POLAR | FIGURE_VIEWS, 800, 600, 45},
+    {"fcos", draw_fcos, FIGURE_LOG | FIGURE_POLAR | FIGURE_VIEWS, 800, 600, 45},
+    {"pdf", draw_pdf, FIGURE_LOG | FIGURE_POLAR | FIGURE_VIEWS, 800, 600, 45},
+    {"albedo", draw_albedo, FIGURE_LOG | FIGURE_POLAR, 800, 600, 0},
+    {"theta-h", draw_theta_h, FIGURE_LOG | FIGURE_VIEWS, 800, 600, 0},
+    {"theta-d", draw_theta_d, FIGURE_LOG | FIGURE_VIEWS, 800, 600, 0},
+    {"slice", draw_slice, FIGURE_PANELS, 420, 440, 0},
+    {"lobe", draw_lobe, FIGURE_PANELS, 480, 440, 45},
+    {"heightfield", draw_height_field, FIGURE_PANELS | FIGURE_LOG, 480, 440, 0},
+    {"samples", draw_samples, FIGURE_PANELS, 420, 440, 45},
+    {"convergence", draw_convergence, 0, 800, 600, 45},
 };
 
 /* ---- Pages ------------------------------------------------------------------------------------- */
 
 static size_t column_count(const figure_kind *kind, size_t n_materials)
 {
-    if (!kind->is_panelled) return 1;
+    if (!(kind->features & FIGURE_PANELS)) return 1;
     return n_materials <= 3 ? n_materials : n_materials == 4 ? 2 : n_materials <= 9 ? 3 : 4;
 }
 
 void figure_size(const figure_kind *kind, size_t n_materials, double *width, double *height)
 {
     const size_t n_columns = column_count(kind, n_materials);
-    const size_t n_rows = kind->is_panelled ? (n_materials + n_columns - 1)/n_columns : 1;
+    const size_t n_rows = kind->features & FIGURE_PANELS ? (n_materials + n_columns - 1)/n_columns : 1;
     *width = kind->width*(double)n_columns;
     *height = kind->height*(double)n_rows;
 }
@@ -72,7 +71,7 @@ facet_status figure_write(const figure_kind *kind, const figure *f, double width
     facet_status status = canvas_create(canvas_kind_of(path), width, height, em, &page, why);
     if (status) return status;
     const box whole = {0.6*em, 0.8*em, width - 1.2*em, height - 1.2*em};
-    status = kind->is_panelled ? draw_panels(page, whole, kind, f, why) : kind->draw(page, whole, f, why);
+    status = kind->features & FIGURE_PANELS ? draw_panels(page, whole, kind, f, why) : kind->draw(page, whole, f, why);
     if (!status) status = canvas_write(page, path, texts, n_texts, why);
     canvas_destroy(page);
     return status;

@@ -47,11 +47,18 @@ typedef struct figure {
 /* Draws all materials, or one of several panels. */
 typedef facet_status figure_draw(canvas *page, box place, const figure *f, facet_error *why);
 
+/* What of a figure a kind heeds. */
+enum {
+    FIGURE_LOG = 1,
+    FIGURE_POLAR = 2,
+    FIGURE_VIEWS = 4, /* several thetas */
+    FIGURE_PANELS = 8 /* a panel for each material: draw is called once for each, with n_materials 1 */
+};
+
 typedef struct figure_kind {
     const char *name; /* "D" */
-    const char *meaning;
     figure_draw *draw;
-    bool is_panelled;     /* one panel for each material: draw is called once for each, with n_materials 1 */
+    unsigned features;
     double width, height; /* of the figure, or of a panel, by default [pixel] */
     double theta;         /* default [degree] */
 } figure_kind;

@@ -80,9 +80,22 @@ static facet_status set_variable(const figure_variable *v, double value, facet_m
     return FACET_OK;
 }
 
-static double between(const figure_variable *v, int i, int side)
+/* The share of the range at which point i lies: angles are closer to each other towards grazing, where masking sets
+ * in. */
+static double share_of(const figure_variable *v, int i, int n)
 {
-    return v->low + (v->high - v->low)*i/(side - 1);
+    const double t = (double)i/(n - 1);
+    switch (angle_of(v)) {
+    case 0: return 1 - (1 - t)*(1 - t)*(1 - t);
+    case 1:
+    case 3: return t*t*t;
+    default: return t;
+    }
+}
+
+static double between(const figure_variable *v, int i, int n)
+{
+    return v->low + (v->high - v->low)*share_of(v, i, n);
 }
 
 /* Adds `sign` times the quantity to the values. */
@@ -223,7 +236,7 @@ static void draw_edge(canvas *page, point from, point to, point away, const axis
                 style, a->name);
 }
 
-static void add_surface(relief *r, const field *d)
+static void add_surface(relief *r, const figure *f, const field *d)
 {
     for (int i = 0; i + 1 < d->n_x; i++)
         for (int k = 0; k + 1 < d->n_y; k++) {
@@ -232,8 +245,8 @@ static void add_surface(relief *r, const field *d)
             for (int c = 0; c < 4; c++) {
                 const int x = i + next[c][0], y = k + next[c][1];
                 const double share = fmin(fmax(axis_place(&d->z, d->values[x][y]), 0), 1);
-                corners[c][0] = (double)x/(d->n_x - 1);
-                corners[c][1] = (double)y/(d->n_y - 1);
+                corners[c][0] = share_of(&f->x, x, d->n_x);
+                corners[c][1] = share_of(&f->y, y, d->n_y);
                 corners[c][2] = HEIGHT*share;
                 sum += isnan(d->values[x][y]) ? NAN : 0.25*share;
             }
@@ -249,11 +262,13 @@ facet_status draw_height_field(canvas *page, box place, const figure *f, facet_e
     relief *r;
     facet_status status = measure(f, &d, why);
     if (status) return status;
-    frame_title(page, &place, place.x + 0.5*place.width, f->title);
+    char title[256];
+    snprintf(title, sizeof title, f->minus ? "%s − %s" : "%s", f->title, f->minus ? f->minus->label : "");
+    frame_title(page, &place, place.x + 0.5*place.width, title);
     const box inside = {place.x + 3.5*em, place.y + 2*em, place.width - 6.5*em, place.height - 5*em};
     if ((status = relief_create(inside, -60, 25, low, high, ANGLE_SIDE*ANGLE_SIDE, &r, why))) return status;
     draw_grid(page, r, &d);
-    add_surface(r, &d);
+    add_surface(r, f, &d);
     relief_draw(page, r);
     draw_edge(page, box_at(r, 0, 0, 0), box_at(r, 1, 0, 0), (point){-0.5, 0.87}, &d.x, 2.4);
     draw_edge(page, box_at(r, 1, 0, 0), box_at(r, 1, 1, 0), (point){0.87, 0.5}, &d.y, 2.2);
@@ -263,11 +278,11 @@ facet_status draw_height_field(canvas *page, box place, const figure *f, facet_e
                          : strcmp(f->quantity, "G1") == 0   ? "G_1"
                                                             : f->quantity;
     if (f->times != 1) snprintf(times, sizeof times, "%g × ", f->times);
-    snprintf(name, sizeof name, f->minus ? "%s|Δ%s|%s" : "%s%s%s", times, symbol,
+    snprintf(name, sizeof name, f->minus ? "%s|difference of %s|%s" : "%s%s%s", times, symbol,
              strcmp(f->quantity, "D") == 0 ? " [1/sr]" : " [1]");
     const point top = box_at(r, 0, 0, 1);
-    canvas_text(page, (point){top.x - em, top.y - 1.2*em},
-                (text_style){.size = NAME_SIZE, .ink = BLACK, .across = 0.5, .down = 0.5, .is_formula = true}, name);
+    canvas_text(page, (point){fmin(place.x + 0.3*em, top.x - 3*em), top.y - 1.2*em},
+                (text_style){.size = NAME_SIZE, .ink = BLACK, .down = 0.5, .is_formula = true}, name);
     relief_destroy(r);
     return FACET_OK;
 }

@@ -43,11 +43,6 @@ static double value_pdf(const figure *f, const figure_material *m, double theta,
     return facet_bsdf64_pdf(&m->bsdf, wi, wo);
 }
 
-static double value_ideal_pdf(const figure *f, const figure_material *m, double theta, double x)
-{
-    return value_fcos(f, m, theta, x)/albedo(f, m, theta);
-}
-
 static double value_albedo(const figure *f, const figure_material *m, double theta, double x)
 {
     (void)theta;
@@ -81,15 +76,16 @@ static double value_theta_d(const figure *f, const figure_material *m, double th
 /* Curves over the angle of the light, all around where something is transmitted. */
 static facet_status draw_plane(canvas *page, box place, const figure *f, curve_kind kind, facet_error *why)
 {
-    char title[128] = "";
+    char title[128] = "In the plane of incidence, viewer at −θₒ";
     int lobes = 0;
     for (size_t k = 0; k < f->n_materials; k++) lobes |= facet_bsdf64_lobes(&f->materials[k].bsdf);
     kind.high = lobes & FACET_TRANSMISSION ? 180 : 90;
     kind.low = -kind.high;
-    kind.has_views = true;
+    kind.view = "θₒ = ";
     kind.x_name = "θ_i, angle between light and surface normal [degrees]";
-    if (f->n_thetas == 1) snprintf(title, sizeof title, "In the plane of incidence, viewer at %g°", -f->thetas[0]);
-    else snprintf(title, sizeof title, "In the plane of incidence, viewers at minus the angles given");
+    if (f->n_thetas == 1)
+        snprintf(title, sizeof title, "In the plane of incidence, viewer at %s%g°", f->thetas[0] > 0 ? "−" : "",
+                 f->thetas[0]);
     kind.title = title;
     return draw_curves(page, place, f, &kind, why);
 }
@@ -106,7 +102,8 @@ facet_status draw_fcos(canvas *page, box place, const figure *f, facet_error *wh
 
 facet_status draw_pdf(canvas *page, box place, const figure *f, facet_error *why)
 {
-    const curve_kind kind = {.value = value_ideal_pdf,
+    const curve_kind kind = {.value = value_fcos,
+                             .scale = albedo,
                              .other = value_pdf,
                              .suffix = ": f cos θᵢ / albedo",
                              .other_suffix = ": pdf",
@@ -134,7 +131,7 @@ facet_status draw_theta_h(canvas *page, box place, const figure *f, facet_error 
                              .x_name = "θ_h, angle between half vector and surface normal [degrees]",
                              .y_name = "f [1/sr]",
                              .high = 90,
-                             .has_views = true};
+                             .view = "θ_d = "};
     return draw_curves(page, place, f, &kind, why);
 }
 
@@ -147,6 +144,6 @@ facet_status draw_theta_d(canvas *page, box place, const figure *f, facet_error 
                              .x_name = "θ_d, angle between light and half vector [degrees]",
                              .y_name = "f [1/sr]",
                              .high = 90,
-                             .has_views = true};
+                             .view = "θ_h = "};
     return draw_curves(page, place, f, &kind, why);
 }

@@ -22,14 +22,14 @@ static colour slice_cell(const void *context, size_t column, size_t row)
 facet_status draw_slice(canvas *page, box place, const figure *f, facet_error *why)
 {
     (void)why;
-    const picture p = {.title = f->title,
-                       .x = {"θ_h [degrees]", AXIS_DEGREES, 0, 90},
-                       .y = {"θ_d [degrees]", AXIS_DEGREES, 0, 90},
-                       .n_columns = SLICE_SIDE,
-                       .n_rows = SLICE_SIDE,
-                       .cell = slice_cell,
-                       .context = f,
-                       .is_square = true};
-    picture_draw(page, place, &p);
+    const cell_map p = {.title = f->title,
+                        .x = {"θ_h [degrees]", AXIS_DEGREES, 0, 90},
+                        .y = {"θ_d [degrees]", AXIS_DEGREES, 0, 90},
+                        .n_columns = SLICE_SIDE,
+                        .n_rows = SLICE_SIDE,
+                        .cell = slice_cell,
+                        .context = f,
+                        .is_square = true};
+    cell_map_draw(page, place, &p);
     return FACET_OK;
 }

@@ -64,7 +64,7 @@ void heatmap_draw(canvas *page, box place, const heatmap *h)
     frame_draw_vertical(page, &s.z, bar, true);
 }
 
-void picture_draw(canvas *page, box place, const picture *p)
+void cell_map_draw(canvas *page, box place, const cell_map *p)
 {
     frame f = make_titled(page, place, p->title, p->x, p->y);
     if (p->is_square) {

@@ -20,16 +20,16 @@ typedef struct heatmap {
 void heatmap_draw(canvas *page, box place, const heatmap *h);
 
 /* Colours that need no bar; row 0 is at the top.  The picture keeps the shape of `place` unless is_square. */
-typedef struct picture {
+typedef struct cell_map {
     const char *title;
     axis x, y;
     size_t n_columns, n_rows;
     cell_function *cell;
     const void *context;
     bool is_square;
-} picture;
+} cell_map;
 
-void picture_draw(canvas *page, box place, const picture *p);
+void cell_map_draw(canvas *page, box place, const cell_map *p);
 
 #ifdef __cplusplus
 }

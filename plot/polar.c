@@ -31,11 +31,17 @@ static void draw_ring(canvas *page, const dial *d, double share, pen p)
     canvas_stroke(page, p);
 }
 
+static axis_ticks distance_ticks(canvas *page, const dial *d)
+{
+    const double most = d->radius/(3.2*canvas_em(page)); /* wide enough for a power of ten */
+    return axis_make_ticks(&d->y, most > 8 ? 8 : most < 2 ? 2 : (int)most);
+}
+
 static void draw_grid(canvas *page, const dial *d)
 {
     const double em = canvas_em(page);
     const pen thin = {LIGHT_GREY, 0.06, SOLID};
-    const axis_ticks t = axis_make_ticks(&d->y, 8);
+    const axis_ticks t = distance_ticks(page, d);
     for (size_t i = 0; i < t.n; i++)
         if (t.ticks[i].label[0]) draw_ring(page, d, axis_place(&d->y, t.ticks[i].value), thin);
     const int end = d->is_whole ? 180 : 90;
@@ -54,11 +60,11 @@ static void draw_grid(canvas *page, const dial *d)
 static void draw_labels(canvas *page, const dial *d, const char *name)
 {
     const double em = canvas_em(page);
-    const axis_ticks t = axis_make_ticks(&d->y, 8);
+    const axis_ticks t = distance_ticks(page, d);
     for (size_t i = 0; i < t.n; i++) {
         const double share = axis_place(&d->y, t.ticks[i].value);
         const point at = {d->centre.x + share*d->radius, d->centre.y};
-        if (share > 0.97 && d->is_whole) continue;
+        if (!t.ticks[i].label[0] || (share > 0.97 && d->is_whole)) continue;
         canvas_segment(page, at, (point){at.x, at.y + 0.35*em}, (pen){BLACK, 0.07, SOLID});
         canvas_text(page, (point){at.x, at.y + 1.1*em}, label_style, t.ticks[i].label);
     }
