@@ -97,15 +97,20 @@ static void draw_band(canvas *page, const frame *f, const series *s)
 static void draw_line(canvas *page, const frame *f, const series *s)
 {
     bool is_begun = false;
+    point last = {0, 0};
     for (size_t i = 0; i < s->n; i++) {
         if (!is_shown(f, s->x[i], s->y[i])) {
             is_begun = false;
             continue;
         }
         const point at = frame_at(f, s->x[i], s->y[i]);
+        /* Steps that nobody sees would only make files large. */
+        const bool is_end = i + 1 == s->n || !is_shown(f, s->x[i + 1], s->y[i + 1]);
+        if (is_begun && !is_end && hypot(at.x - last.x, at.y - last.y) < 0.02*canvas_em(page)) continue;
         if (is_begun) canvas_line(page, at);
         else canvas_move(page, at);
         is_begun = true;
+        last = at;
     }
     canvas_stroke(page, (pen){s->ink, LINE_WIDTH, s->dash});
 }
@@ -139,7 +144,11 @@ void chart_draw(canvas *page, box place, const chart *c)
     legend_draw(page, &place, c->items, c->n_items);
     const frame f = fit_frame(page, place, c);
     frame_draw_grid(page, &f);
-    canvas_clip(page, f.inside);
+    frame_draw(page, &f);
+    /* A line along an end of an axis is seen whole. */
+    const double edge = LINE_WIDTH*canvas_em(page);
+    canvas_clip(page,
+                (box){f.inside.x - edge, f.inside.y - edge, f.inside.width + 2*edge, f.inside.height + 2*edge});
     for (size_t i = 0; i < c->n_items; i++)
         if (c->items[i].below) draw_band(page, &f, &c->items[i]);
     for (size_t i = 0; i < c->n_items; i++) {
@@ -147,5 +156,4 @@ void chart_draw(canvas *page, box place, const chart *c)
         else draw_line(page, &f, &c->items[i]);
     }
     canvas_unclip(page);
-    frame_draw(page, &f);
 }

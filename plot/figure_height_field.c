@@ -13,8 +13,8 @@
 #include "plot/relief.h"
 
 /* Points along an angle, over which quantities may change fast, and along a parameter; the albedo, an integral, has
- * fewer.  The height of the box whose sides are 1. */
-enum { ANGLE_SIDE = 81, SIDE = 31, ALBEDO_SIDE = 17 };
+ * fewer; about how many mesh lines.  The height of the box whose sides are 1. */
+enum { ANGLE_SIDE = 121, SIDE = 31, ALBEDO_SIDE = 17, MESH = 15 };
 static const double HEIGHT = 0.75, DEGREE = 3.14159265358979323846/180;
 
 typedef struct field {
@@ -86,9 +86,9 @@ static double share_of(const figure_variable *v, int i, int n)
 {
     const double t = (double)i/(n - 1);
     switch (angle_of(v)) {
-    case 0: return 1 - (1 - t)*(1 - t)*(1 - t);
+    case 0: return 1 - (1 - t)*(1 - t);
     case 1:
-    case 3: return t*t*t;
+    case 3: return t*t;
     default: return t;
     }
 }
@@ -236,6 +236,14 @@ static void draw_edge(canvas *page, point from, point to, point away, const axis
                 style, a->name);
 }
 
+/* The edges of patch (i, k) that are on mesh lines, which are fewer. */
+static unsigned mesh_edges(const field *d, int i, int k)
+{
+    const int x_step = d->n_x/MESH, y_step = d->n_y/MESH;
+    return (unsigned)(k%y_step == 0) | (unsigned)((i + 1)%x_step == 0) << 1 |
+           (unsigned)((k + 1)%y_step == 0) << 2 | (unsigned)(i%x_step == 0) << 3;
+}
+
 static void add_surface(relief *r, const figure *f, const field *d)
 {
     for (int i = 0; i + 1 < d->n_x; i++)
@@ -250,7 +258,7 @@ static void add_surface(relief *r, const figure *f, const field *d)
                 corners[c][2] = HEIGHT*share;
                 sum += isnan(d->values[x][y]) ? NAN : 0.25*share;
             }
-            if (!isnan(sum)) relief_quad(r, corners, sequential_colour(sum));
+            if (!isnan(sum)) relief_quad(r, corners, sequential_colour(sum), mesh_edges(d, i, k));
         }
 }
 

@@ -10,7 +10,7 @@
 static const double DEGREE = 3.14159265358979323846/180;
 
 /* Rings around the direction of a mirror, closer to each other near it, and steps around it. */
-enum { RINGS = 44, AROUND = 56, CIRCLE = 60, N_PARTS = RINGS*AROUND + 8*RELIEF_PIECES };
+enum { RINGS = 64, AROUND = 80, CIRCLE = 60, N_PARTS = RINGS*AROUND + 8*RELIEF_PIECES };
 
 /* Half the side of a square that looks as wide as the unit circle. */
 static const double WIDE = 0.82;
@@ -44,6 +44,14 @@ static void measure(const figure *f, lobe *l)
         }
 }
 
+/* Mesh lines are fewer than patches. */
+static unsigned mesh_edges(int ring, int step)
+{
+    enum { EVERY = 4 };
+    return (unsigned)(step%EVERY == 0) | (unsigned)((ring + 1)%EVERY == 0) << 1 |
+           (unsigned)((step + 1)%EVERY == 0) << 2 | (unsigned)(ring%EVERY == 0) << 3;
+}
+
 static void add_surface(relief *r, const lobe *l)
 {
     for (int i = 0; i < RINGS; i++)
@@ -56,7 +64,8 @@ static void add_surface(relief *r, const lobe *l)
                 quad[3][j] = l->points[i][k + 1][j];
             }
             const double length = 0.5*(l->lengths[i][k] + l->lengths[i + 1][k + 1]);
-            if (l->lengths[i][k] + l->lengths[i + 1][k] > 1e-4) relief_quad(r, quad, sequential_colour(length));
+            if (l->lengths[i][k] + l->lengths[i + 1][k] > 1e-4)
+                relief_quad(r, quad, sequential_colour(length), mesh_edges(i, k));
         }
 }
 

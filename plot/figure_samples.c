@@ -64,7 +64,7 @@ facet_status draw_samples(canvas *page, box place, const figure *f, facet_error 
     canvas_circle(page, view, 0.4*em, (pen){BLACK, 0.13, SOLID});
     text_style style = label_style;
     style.is_formula = true;
-    canvas_text(page, (point){view.x, view.y - 1.1*em}, style, "ω_o");
+    canvas_text(page, (point){view.x + 0.9*em, view.y - 1.1*em}, style, "ω_o");
     char note[96];
     snprintf(note, sizeof note, "%llu directions ω_i from above, %llu without a sample",
              (unsigned long long)f->n_samples, (unsigned long long)n_lost);
@@ -141,7 +141,7 @@ facet_status draw_convergence(canvas *page, box place, const figure *f, facet_er
     snprintf(title, sizeof title, "Sampled albedo, viewer at %g°: %d runs, the middle 80 %% shaded", f->thetas[0],
              N_RUNS);
     const chart c = {.title = f->title ? f->title : title,
-                     .x = {"number of samples [1]", AXIS_LOG, 0, 0},
+                     .x = {"number of samples [1]", AXIS_LOG, 1, (double)f->n_samples},
                      .y = {"root mean square of the relative error [1]", AXIS_LOG, f->low, f->high},
                      .items = items,
                      .n_items = f->n_materials};

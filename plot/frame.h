@@ -31,7 +31,7 @@ frame frame_make(canvas *page, box place, axis x, axis y);
 
 /* Grid lines, to be drawn before the data. */
 void frame_draw_grid(canvas *page, const frame *f);
-/* The border, ticks, labels and names, after the data. */
+/* The border, ticks, labels and names. */
 void frame_draw(canvas *page, const frame *f);
 
 /* Where a point lies; beyond the frame it stays within twice its size, and lines to it keep their direction nearly. */

@@ -15,6 +15,7 @@ typedef struct part {
     size_t order; /* of parts with the same depth */
     colour fill;
     pen edge;
+    unsigned edges; /* of a patch */
     bool is_line;
 } part;
 
@@ -105,10 +106,10 @@ static colour lit(const relief *r, double corners[4][3], colour c)
     return (colour){c.r*share, c.g*share, c.b*share, 1};
 }
 
-void relief_quad(relief *r, double corners[4][3], colour c)
+void relief_quad(relief *r, double corners[4][3], colour c, unsigned edges)
 {
-    part p = {.fill = lit(r, corners, c)};
-    p.edge = (pen){{0.82*p.fill.r, 0.82*p.fill.g, 0.82*p.fill.b, 1}, 0.03, SOLID};
+    part p = {.fill = lit(r, corners, c), .edges = edges};
+    p.edge = (pen){{0.6*p.fill.r, 0.6*p.fill.g, 0.6*p.fill.b, 1}, 0.04, SOLID};
     for (int i = 0; i < 4; i++) {
         p.corners[i] = relief_at(r, corners[i]);
         p.depth += 0.25*dot(r->towards, corners[i]);
@@ -145,21 +146,26 @@ static int compare_depths(const void *a, const void *b)
     return (p->order > q->order) - (p->order < q->order);
 }
 
+static void draw_patch(canvas *page, const part *p)
+{
+    /* The second time closes the seams between patches. */
+    for (int twice = 0; twice < 2; twice++) {
+        canvas_move(page, p->corners[0]);
+        for (int k = 1; k < 4; k++) canvas_line(page, p->corners[k]);
+        canvas_close(page);
+        if (twice) canvas_stroke(page, (pen){p->fill, 0.04, SOLID});
+        else canvas_fill(page, p->fill);
+    }
+    for (int k = 0; k < 4; k++)
+        if (p->edges >> k & 1) canvas_segment(page, p->corners[k], p->corners[(k + 1)%4], p->edge);
+}
+
 void relief_draw(canvas *page, relief *r)
 {
     qsort(r->parts, r->n, sizeof *r->parts, compare_depths);
     for (size_t i = 0; i < r->n; i++) {
         const part *p = &r->parts[i];
-        if (p->is_line) {
-            canvas_segment(page, p->corners[0], p->corners[1], p->edge);
-            continue;
-        }
-        for (int twice = 0; twice < 2; twice++) {
-            canvas_move(page, p->corners[0]);
-            for (int k = 1; k < 4; k++) canvas_line(page, p->corners[k]);
-            canvas_close(page);
-            if (twice) canvas_stroke(page, p->edge);
-            else canvas_fill(page, p->fill);
-        }
+        if (p->is_line) canvas_segment(page, p->corners[0], p->corners[1], p->edge);
+        else draw_patch(page, p);
     }
 }

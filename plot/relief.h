@@ -12,17 +12,17 @@ extern "C" {
 
 typedef struct relief relief;
 
-/* z is up; the eye is at this azimuth from x and elevation [degrees].  The box from low to high fills `place`.  Holds up
- * to n_parts parts: a quad is one of them, a line RELIEF_PIECES. */
-enum { RELIEF_PIECES = 24 };
+/* z is up; the eye is at this azimuth from x and this elevation [degrees].  The box from low to high fills `place`.
+ * There is room for n_parts parts: a quad is one of them, a line RELIEF_PIECES. */
+enum { RELIEF_PIECES = 12 };
 facet_status relief_create(box place, double azimuth, double elevation, const double low[3], const double high[3],
                            size_t n_parts, relief **made, facet_error *why);
 void relief_destroy(relief *r);
 
 point relief_at(const relief *r, const double p[3]);
 
-/* A patch lit from above the eye, with thin edges of a darker colour. */
-void relief_quad(relief *r, double corners[4][3], colour c);
+/* A patch lit from above the eye.  Bit i of `edges`: a thin line from corner i to the next one. */
+void relief_quad(relief *r, double corners[4][3], colour c, unsigned edges);
 void relief_line(relief *r, const double from[3], const double to[3], pen p);
 
 void relief_draw(canvas *page, relief *r);
