@@ -9,7 +9,7 @@
 #include "cli/suggest.h"
 #include "plot/figure.h"
 
-enum { MOST_MATERIALS = 24, LEAST_SIDE = 100, MOST_SIDE = 8192 };
+enum { MOST_MATERIALS = 64, LEAST_SIDE = 100, MOST_SIDE = 8192 };
 
 typedef struct settings {
     const char *of, *out, *title, *channel, *quantity, *x, *y, *minus;

@@ -3,8 +3,6 @@
 #include "plot/figure.h"
 
 #include <math.h>
-#include <stdio.h>
-#include <string.h>
 
 #include "core/error.h"
 #include "plot/frame.h"

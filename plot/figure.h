@@ -69,7 +69,8 @@ extern const figure_kind figure_kinds[FIGURE_KINDS];
 /* The size of the whole by default. */
 void figure_size(const figure_kind *kind, size_t n_materials, double *width, double *height);
 
-/* Draws and writes the figure.  Errors name the material they are about in why->place, as its label. */
+/* Draws and writes the figure.  why->place is the label of the material that is at fault, or the option; it is empty if
+ * the file is. */
 facet_status figure_write(const figure_kind *kind, const figure *f, double width, double height, const char *path,
                           const image_text *texts, size_t n_texts, facet_error *why);
 

@@ -4,7 +4,6 @@
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include "core/error.h"
@@ -25,20 +24,26 @@ typedef struct field {
 
 /* ---- Values ------------------------------------------------------------------------------------ */
 
+enum { THETA, COS, TAN, COT, N_ANGLES, NO_ANGLE = N_ANGLES };
+
 static const struct {
     const char *name, *label;
 } variables[] = {
     {"theta", "θ [degrees]"}, {"cos", "cos θ [1]"}, {"tan", "tan θ [1]"},
     {"cot", "μ = cot θ [1]"}, {"alpha", "α [1]"},   {"gamma", "γ [1]"},
 };
-enum { N_ANGLES = 4, N_VARIABLES = sizeof variables/sizeof *variables };
+enum { N_VARIABLES = sizeof variables/sizeof *variables };
 
-/* The index of an angle's name, or -1. */
 static int angle_of(const figure_variable *v)
 {
-    for (int k = 0; k < N_ANGLES; k++)
-        if (strcmp(v->name, variables[k].name) == 0) return k;
-    return -1;
+    int k = 0;
+    while (k < N_ANGLES && strcmp(v->name, variables[k].name) != 0) k++;
+    return k;
+}
+
+static bool is_angle(const figure_variable *v)
+{
+    return angle_of(v) != NO_ANGLE;
 }
 
 static const char *label_of(const figure_variable *v)
@@ -48,13 +53,18 @@ static const char *label_of(const figure_variable *v)
     return v->name;
 }
 
+static axis axis_of(const figure_variable *v)
+{
+    return (axis){label_of(v), angle_of(v) == THETA ? AXIS_DEGREES : AXIS_LINEAR, v->low, v->high};
+}
+
 static double theta_of(int angle, double value)
 {
     switch (angle) {
-    case 0: return value;
-    case 1: return acos(value)/DEGREE;
-    case 2: return atan(value)/DEGREE;
-    default: return value > 0 ? atan(1/value)/DEGREE : 90;
+    case COS: return acos(value)/DEGREE;
+    case TAN: return atan(value)/DEGREE;
+    case COT: return value > 0 ? atan(1/value)/DEGREE : 90;
+    default: return value;
     }
 }
 
@@ -74,9 +84,8 @@ static double quantity_of(const figure *f, const facet_bsdf64 *bsdf, double thet
 static facet_status set_variable(const figure_variable *v, double value, facet_material *m, double *theta,
                                  facet_error *why)
 {
-    const int angle = angle_of(v);
-    if (angle < 0) return facet_material_set(m, v->name, &value, 1, why);
-    *theta = theta_of(angle, value);
+    if (!is_angle(v)) return facet_material_set(m, v->name, &value, 1, why);
+    *theta = theta_of(angle_of(v), value);
     return FACET_OK;
 }
 
@@ -86,9 +95,9 @@ static double share_of(const figure_variable *v, int i, int n)
 {
     const double t = (double)i/(n - 1);
     switch (angle_of(v)) {
-    case 0: return 1 - (1 - t)*(1 - t);
-    case 1:
-    case 3: return t*t;
+    case THETA: return 1 - (1 - t)*(1 - t);
+    case COS:
+    case COT: return t*t;
     default: return t;
     }
 }
@@ -105,7 +114,7 @@ static facet_status add_values(const figure *f, const figure_material *m, double
     facet_bsdf64 bsdf = m->bsdf;
     facet_material material = m->material;
     /* The angle, if there is one, varies fastest, so that a material is prepared once for each of its parameters. */
-    const bool is_x_angle = angle_of(&f->x) >= 0, has_angle = is_x_angle || angle_of(&f->y) >= 0;
+    const bool is_x_angle = is_angle(&f->x), has_angle = is_x_angle || is_angle(&f->y);
     const int n_fast = is_x_angle ? d->n_x : d->n_y;
     for (int i = 0; i < d->n_x*d->n_y; i++) {
         const int fast = i%n_fast, slow = i/n_fast, x = is_x_angle ? fast : slow, y = is_x_angle ? slow : fast;
@@ -123,8 +132,8 @@ static facet_status check_range(const figure_variable *v, const char *place, con
     static const double highest[N_ANGLES] = {90, 1, 1e6, 1e6};
     const facet_model_info *model = facet_model_get(m->material.model);
     const int angle = angle_of(v);
-    double low = 0, high = angle >= 0 ? highest[angle] : -1;
-    for (size_t i = 0; angle < 0 && i < model->n_parameters; i++) {
+    double low = 0, high = angle != NO_ANGLE ? highest[angle] : -1;
+    for (size_t i = 0; angle == NO_ANGLE && i < model->n_parameters; i++) {
         const facet_parameter *p = &model->parameters[i];
         if (p->kind == FACET_CHOICE || strcmp(p->name, v->name) != 0) continue;
         low = p->low;
@@ -142,7 +151,7 @@ static facet_status check_range(const figure_variable *v, const char *place, con
 
 static facet_status check_variables(const figure *f, const figure_material *m, facet_error *why)
 {
-    if (strcmp(f->x.name, f->y.name) == 0 || (angle_of(&f->x) >= 0 && angle_of(&f->y) >= 0))
+    if (strcmp(f->x.name, f->y.name) == 0 || (is_angle(&f->x) && is_angle(&f->y)))
         return facet_error_set(why, FACET_BAD_VALUE, "--x", "cannot be `%s` while --y is `%s`; vary two things",
                                f->x.name, f->y.name);
     const facet_status status = check_range(&f->x, "--x", m, why);
@@ -152,7 +161,7 @@ static facet_status check_variables(const figure *f, const figure_material *m, f
 static int point_count(const figure *f, const figure_variable *v)
 {
     if (strcmp(f->quantity, "albedo") == 0) return ALBEDO_SIDE;
-    return angle_of(v) >= 0 ? ANGLE_SIDE : SIDE;
+    return is_angle(v) ? ANGLE_SIDE : SIDE;
 }
 
 static facet_status measure(const figure *f, field *d, facet_error *why)
@@ -167,10 +176,8 @@ static facet_status measure(const figure *f, field *d, facet_error *why)
     }
     if (status) return status;
     double low = INFINITY, high = -INFINITY;
-    const axis_scale y_scale = strcmp(f->y.name, "theta") == 0 ? AXIS_DEGREES : AXIS_LINEAR;
-    const axis_scale x_scale = strcmp(f->x.name, "theta") == 0 ? AXIS_DEGREES : AXIS_LINEAR;
-    d->x = (axis){label_of(&f->x), x_scale, f->x.low, f->x.high};
-    d->y = (axis){label_of(&f->y), y_scale, f->y.low, f->y.high};
+    d->x = axis_of(&f->x);
+    d->y = axis_of(&f->y);
     d->z = (axis){NULL, f->is_log ? AXIS_LOG : AXIS_LINEAR, f->low, f->high};
     for (int x = 0; x < d->n_x; x++)
         for (int y = 0; y < d->n_y; y++) {

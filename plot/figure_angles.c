@@ -1,4 +1,4 @@
-/* figure_lobes.c: f, f cos, the sampler's density and the albedo over angles.
+/* figure_angles.c: f, f cos, the sampler's density and the albedo over angles.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdio.h>
