@@ -1,5 +1,6 @@
 /* cmd_plot.c: `facet plot`, figures of materials.
  * SPDX-License-Identifier: MIT */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,20 +38,10 @@ static const figure_kind *find_kind(const char *name)
 /* "alpha=.1:.5" */
 static int read_variable(const char *place, const char *text, figure_variable *v)
 {
+    int end = 0;
     if (!text) return 0;
-    char numbers[64];
-    const char *equals = strchr(text, '='), *colon = equals ? strchr(equals, ':') : NULL;
-    if (colon && (size_t)(equals - text) < sizeof v->name &&
-        (size_t)snprintf(numbers, sizeof numbers, "%s", equals + 1) < sizeof numbers) {
-        double ends[2];
-        numbers[colon - equals - 1] = ',';
-        snprintf(v->name, sizeof v->name, "%.*s", (int)(equals - text), text);
-        if (parse_numbers(numbers, ends, 2) && ends[0] < ends[1]) {
-            v->low = ends[0];
-            v->high = ends[1];
-            return 0;
-        }
-    }
+    const int n = sscanf(text, "%31[^=]=%lf:%lf%n", v->name, &v->low, &v->high, &end);
+    if (n == 3 && !text[end] && isfinite(v->low) && isfinite(v->high) && v->low < v->high) return 0;
     return fail(EXIT_USAGE, NULL, place, "`%s` is not NAME=LOW:HIGH with LOW below HIGH, such as alpha=0.1:0.5", text);
 }
 
@@ -148,7 +139,7 @@ static int run(int argc, char **argv)
                 .y = {"theta", 0, 90},
                 .times = s.times.is_given ? s.times.value : 1};
     if ((status = read_variable("--x", s.x, &f.x)) || (status = read_variable("--y", s.y, &f.y))) return status;
-    figure_material minus, *materials = calloc(n, sizeof *materials);
+    figure_material minus = {0}, *materials = calloc(n, sizeof *materials);
     char *command_line = quote_command(argc, argv);
     status = materials && command_line ? 0 : fail_memory();
     for (size_t k = 0; k < n && !status; k++)
@@ -207,20 +198,21 @@ const command plot_command = {
     .operands = "SPEC...",
     .min_operands = 1,
     .max_operands = MOST_MATERIALS,
-    .description = "Draws one or several materials as WHAT, into an SVG, PNG or PDF file:\n"
-                   "  D, Lambda, G1  of the distribution over the angle of the normal or the direction\n"
-                   "  F              Fresnel's term over the angle between light and half vector\n"
-                   "  f, fcos        the BRDF, and times |cos theta_i|, over the angle of the light\n"
-                   "  pdf            the sampler's density against f cos over its integral\n"
-                   "  albedo         the share of light that is reflected, over the angle of the view\n"
-                   "  theta-h        f over the angle between half vector and normal\n"
-                   "  theta-d        f over the angle between light and half vector\n"
-                   "  slice          picture of f over both, at phi_d = 90 degrees, with a gamma of 2.2\n"
-                   "  lobe           f cos over all directions of light, in three dimensions\n"
-                   "  heightfield    a quantity over two variables, in three dimensions\n"
-                   "  samples        directions that the sampler draws\n"
-                   "  convergence    the error of the sampled albedo against the number of samples\n"
-                   "Curves of several materials share a chart; the last five and slice give each its own panel.\n",
+    .description =
+        "Draws one or several materials as WHAT, into an SVG, PNG or PDF file:\n"
+        "  D, Lambda, G1  of the distribution over the angle of the normal or the direction\n"
+        "  F              Fresnel's term over the angle between light and half vector\n"
+        "  f, fcos        the BRDF, and times |cos theta_i|, over the angle of the light\n"
+        "  pdf            the sampler's density against f cos over its integral\n"
+        "  albedo         the share of light that is reflected, over the angle of the view\n"
+        "  theta-h        f over the angle between half vector and normal\n"
+        "  theta-d        f over the angle between light and half vector\n"
+        "  slice          picture of f over both, at phi_d = 90 degrees, with a gamma of 2.2\n"
+        "  lobe           f cos over all directions of light, in three dimensions\n"
+        "  heightfield    a quantity over two variables, in three dimensions\n"
+        "  samples        directions that the sampler draws\n"
+        "  convergence    the error of the sampled albedo against the number of samples\n"
+        "Curves of several materials share a chart; slice, lobe, heightfield and samples give each its own panel.\n",
     .examples = "  facet plot 'ggx alpha=.2' 'beckmann alpha=.2' --of D --log -o D.svg\n"
                 "  facet plot 'ggx alpha=.3' --of fcos --theta 0,45,80 --polar -o lobes.pdf\n"
                 "  facet plot 'gtr gamma=4' --of heightfield --x alpha=.1:.5 --y cot=0:5 -o G1.png\n",

@@ -135,8 +135,9 @@ size_t shell_quote(char *text, size_t size, const char *argument)
 
 char *quote_command(int argc, char **argv)
 {
+    char nothing;
     size_t size = sizeof "facet";
-    for (int i = 0; i < argc; i++) size += shell_quote(NULL, 0, argv[i]) + 1;
+    for (int i = 0; i < argc; i++) size += shell_quote(&nothing, 0, argv[i]) + 1;
     char *text = malloc(size);
     if (!text) return NULL;
     size_t n = (size_t)snprintf(text, size, "facet");

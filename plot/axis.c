@@ -4,6 +4,7 @@
 
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Beyond these a difference of two values, or a step between them, could overflow or vanish. */
@@ -141,19 +142,20 @@ static void add_minor_ticks(axis_ticks *t, const axis *a, double decade)
 /* A label for each decade, or for every few of them. */
 static axis_ticks log_ticks(const axis *a, int most)
 {
+    enum { MOST_WITH_MINOR = 10, MOST_DECADES = 60 };
     axis_ticks t = {0};
-    const double first = ceil(log10(a->low) - 1e-9), last = floor(log10(a->high) + 1e-9);
+    const int first = (int)ceil(log10(a->low) - 1e-9), last = (int)floor(log10(a->high) + 1e-9);
     if (last <= first) return linear_ticks(a, most);
-    const double stride = ceil((last - first + 1)/most), decades = last - first;
-    if (decades <= 10) add_minor_ticks(&t, a, pow(10, first - 1));
-    for (double k = first; k <= last; k++) {
+    const int decades = last - first, stride = (decades + most)/most;
+    if (decades <= MOST_WITH_MINOR) add_minor_ticks(&t, a, pow(10, first - 1));
+    for (int k = first; k <= last; k++) {
         char label[AXIS_LABEL_CAP];
         if (k >= 0 && k <= 2) snprintf(label, sizeof label, "%.0f", pow(10, k));
         else if (k == -1) snprintf(label, sizeof label, "0.1");
-        else snprintf(label, sizeof label, "10^{%s%.0f}", k < 0 ? "−" : "", fabs(k));
-        const bool is_labelled = fmod(k - first, stride) == 0;
-        if (is_labelled || decades < 60) add_tick(&t, pow(10, k), is_labelled ? label : "");
-        if (decades <= 10) add_minor_ticks(&t, a, pow(10, k));
+        else snprintf(label, sizeof label, "10^{%s%d}", k < 0 ? "−" : "", abs(k));
+        const bool is_labelled = (k - first)%stride == 0;
+        if (is_labelled || decades < MOST_DECADES) add_tick(&t, pow(10, k), is_labelled ? label : "");
+        if (decades <= MOST_WITH_MINOR) add_minor_ticks(&t, a, pow(10, k));
     }
     return t;
 }

@@ -25,6 +25,11 @@ static int compare_numbers(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+static void add_angle(curve *c, double angle, double low, double high)
+{
+    if (angle > low && angle < high) c->x[c->n++] = angle;
+}
+
 static void choose_angles(curve *c, const curve_kind *kind, double low, double theta)
 {
     const double centres[MOST_CENTRES] = {0, theta, -theta};
@@ -32,10 +37,10 @@ static void choose_angles(curve *c, const curve_kind *kind, double low, double t
     for (int i = 0; i <= n_even; i++) c->x[c->n++] = low + (kind->high - low)*i/n_even;
     if (kind->n_angles) return;
     for (int k = 0; k < (kind->view ? MOST_CENTRES : 1); k++)
-        for (int i = 0; i < 2*NEAR; i++) {
-            const double offset = pow(10, -3 + 4.2*(double)(i/2)/(NEAR - 1));
-            const double angle = centres[k] + (i%2 ? offset : -offset);
-            if (angle > low && angle < kind->high) c->x[c->n++] = angle;
+        for (int i = 0; i < NEAR; i++) {
+            const double offset = pow(10, -3 + 4.2*i/(NEAR - 1)); /* 0.001 to 16 degrees */
+            add_angle(c, centres[k] - offset, low, kind->high);
+            add_angle(c, centres[k] + offset, low, kind->high);
         }
     qsort(c->x, c->n, sizeof *c->x, compare_numbers);
 }

@@ -125,25 +125,25 @@ facet_status draw_albedo(canvas *page, box place, const figure *f, facet_error *
 facet_status draw_theta_h(canvas *page, box place, const figure *f, facet_error *why)
 {
     char title[64];
-    snprintf(title, sizeof title, "θ_d = %g°, φ_d = 90°", f->thetas[0]);
+    snprintf(title, sizeof title, "Difference angle %g°, azimuth 90°", f->thetas[0]);
     const curve_kind kind = {.value = value_theta_h,
                              .title = f->n_thetas == 1 ? title : NULL,
                              .x_name = "θ_h, angle between half vector and surface normal [degrees]",
                              .y_name = "f [1/sr]",
                              .high = 90,
-                             .view = "θ_d = "};
+                             .view = "difference angle "};
     return draw_curves(page, place, f, &kind, why);
 }
 
 facet_status draw_theta_d(canvas *page, box place, const figure *f, facet_error *why)
 {
     char title[64];
-    snprintf(title, sizeof title, "θ_h = %g°, φ_d = 90°", f->thetas[0]);
+    snprintf(title, sizeof title, "Half angle %g°, azimuth of the difference 90°", f->thetas[0]);
     const curve_kind kind = {.value = value_theta_d,
                              .title = f->n_thetas == 1 ? title : NULL,
                              .x_name = "θ_d, angle between light and half vector [degrees]",
                              .y_name = "f [1/sr]",
                              .high = 90,
-                             .view = "θ_h = "};
+                             .view = "half angle "};
     return draw_curves(page, place, f, &kind, why);
 }

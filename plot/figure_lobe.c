@@ -47,7 +47,7 @@ static void measure(const figure *f, lobe *l)
 /* Mesh lines are fewer than patches. */
 static unsigned mesh_edges(int ring, int step)
 {
-    enum { EVERY = 4 };
+    enum { EVERY = 8 };
     return (unsigned)(step%EVERY == 0) | (unsigned)((ring + 1)%EVERY == 0) << 1 |
            (unsigned)((step + 1)%EVERY == 0) << 2 | (unsigned)(ring%EVERY == 0) << 3;
 }

@@ -1,5 +1,6 @@
 /* figure_samples.c: where a sampler's directions go, and how fast their mean approaches the albedo.
  * SPDX-License-Identifier: MIT */
+#include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -65,9 +66,10 @@ facet_status draw_samples(canvas *page, box place, const figure *f, facet_error 
     text_style style = label_style;
     style.is_formula = true;
     canvas_text(page, (point){view.x + 0.9*em, view.y - 1.1*em}, style, "ω_o");
-    char note[96];
-    snprintf(note, sizeof note, "%llu directions ω_i from above, %llu without a sample",
-             (unsigned long long)f->n_samples, (unsigned long long)n_lost);
+    const bool has_two_sides = facet_bsdf64_lobes(&f->materials[0].bsdf) & FACET_TRANSMISSION;
+    char note[128];
+    snprintf(note, sizeof note, "%" PRIu64 " directions ω_i seen from above%s, %" PRIu64 " without a sample",
+             f->n_samples, has_two_sides ? " (below: orange)" : "", n_lost);
     canvas_text(page, (point){place.x + 0.5*place.width, centre.y + radius + 1.6*em}, style, note);
     return FACET_OK;
 }

@@ -17,7 +17,8 @@ box panel_place(box whole, size_t n, size_t n_columns, size_t k)
 {
     const size_t n_rows = (n + n_columns - 1)/n_columns;
     const double width = whole.width/(double)n_columns, height = whole.height/(double)n_rows;
-    return (box){whole.x + (double)(k%n_columns)*width, whole.y + (double)(k/n_columns)*height, width, height};
+    const size_t row = k/n_columns, column = k%n_columns;
+    return (box){whole.x + (double)column*width, whole.y + (double)row*height, width, height};
 }
 
 void frame_title(canvas *page, box *place, double x, const char *title)
