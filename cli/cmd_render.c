@@ -38,21 +38,6 @@ static bool on_progress(void *user, const render_progress *state)
     return !is_interrupted;
 }
 
-/* The command line as a shell would take it; NULL without memory. */
-static char *quote_command(int argc, char **argv)
-{
-    size_t size = sizeof "facet";
-    for (int i = 0; i < argc; i++) size += shell_quote(NULL, 0, argv[i]) + 1;
-    char *text = malloc(size);
-    if (!text) return NULL;
-    size_t n = (size_t)snprintf(text, size, "facet");
-    for (int i = 0; i < argc; i++) {
-        text[n++] = ' ';
-        n += shell_quote(text + n, size - n, argv[i]);
-    }
-    return text;
-}
-
 /* Without -o: the scene's base name in the current folder, as PNG. */
 static int name_output(render_options *o)
 {

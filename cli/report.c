@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include <strings.h>
 
@@ -130,6 +131,21 @@ size_t shell_quote(char *text, size_t size, const char *argument)
 #undef PUT
     if (size) text[n < size ? n : size - 1] = 0;
     return n;
+}
+
+char *quote_command(int argc, char **argv)
+{
+    char nothing;
+    size_t size = sizeof "facet";
+    for (int i = 0; i < argc; i++) size += shell_quote(&nothing, 0, argv[i]) + 1;
+    char *text = malloc(size);
+    if (!text) return NULL;
+    size_t n = (size_t)snprintf(text, size, "facet");
+    for (int i = 0; i < argc; i++) {
+        text[n++] = ' ';
+        n += shell_quote(text + n, size - n, argv[i]);
+    }
+    return text;
 }
 
 bool has_extension(const char *path, const char *extension)

@@ -52,6 +52,9 @@ int finish_stdout(int status);
  * has; writes at most size bytes, the closing 0 included. */
 size_t shell_quote(char *text, size_t size, const char *argument);
 
+/* "facet" and the arguments, as a shell takes them; the caller frees.  NULL without memory. */
+char *quote_command(int argc, char **argv);
+
 /* True if text is NAME.EXTENSION, in any case; extension without the dot. */
 bool has_extension(const char *path, const char *extension);
 

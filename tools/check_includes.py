@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Includes point one way: include < core < verify < render < io < cli, and one library's headers are seen by one .c.
+"""Includes point one way: include < core < verify < render < io < plot < cli, and one library's headers are seen by one .c.
 
 Examples see include/ only; tests and benchmarks may see everything; the core needs nothing but C11.
 
@@ -22,7 +22,7 @@ INTRINSICS = "cpuid immintrin xmmintrin pmmintrin emmintrin"
 # Header prefix -> library.
 THIRD_PARTY = {"embree3/": "Embree", "OpenEXR/": "OpenEXR", "openexr": "OpenEXR", "png.h": "libpng",
                "jpeglib.h": "libjpeg", "jerror.h": "libjpeg", "jansson": "jansson", "civetweb": "civetweb",
-               "mpi.h": "MPI", "zlib.h": "zlib", "sanitizer/": "sanitizers"}
+               "mpi.h": "MPI", "zlib.h": "zlib", "cairo": "Cairo", "sanitizer/": "sanitizers"}
 TESTS_ONLY = {"cmocka": "cmocka", "flint/": "FLINT", "arb": "Arb", "gsl/": "GSL", "mpfr": "MPFR", "EGL/": "EGL",
               "GLES3/": "OpenGL ES"}
 

@@ -7,7 +7,7 @@ import subprocess
 import sys
 
 # From left to right: a file includes from its own folder or from one to the left.
-PRODUCT_FOLDERS = ["include", "core", "verify", "render", "io", "cli"]
+PRODUCT_FOLDERS = ["include", "core", "verify", "render", "io", "plot", "cli"]
 
 
 def default_root():
