@@ -21,6 +21,7 @@ typedef struct emitter {
     real3 radiance;             /* ... which is this [W/(m^2 sr)] */
     float area;                 /* triangle [m^2] */
     real3 origin, edge1, edge2; /* triangle, world space */
+    real3 center;               /* ... of its corners */
     real3 normal;               /* triangle, unit, on the front side */
     float offset;               /* how far shadow rays stop from the surface [m] */
     double power;               /* [W], luminance; what many emitters are chosen by */
@@ -95,6 +96,7 @@ static facet_status add_instance(light_set *set, size_t index)
         e.origin = p0;
         e.edge1 = sub3(p1, p0);
         e.edge2 = sub3(p2, p0);
+        e.center = scale3((real)0.333333333333333, add3(add3(p0, p1), p2));
         e.area = 0.5f*length3(cross3(e.edge1, e.edge2));
         e.normal = scale3(sign, normal_of_edges(e.edge1, e.edge2));
         e.is_double_sided = mat->is_double_sided;
@@ -332,13 +334,12 @@ static float importance(const light_set *set, const emitter *e, real3 from)
 {
     switch (e->kind) {
     case EMITTER_TRIANGLE: {
-        const real3 third = scale3((real)0.333333333333333, add3(e->edge1, e->edge2));
-        const real3 to_light = sub3(add3(e->origin, third), from);
-        const float d2 = dot3(to_light, to_light), height = -dot3(to_light, e->normal);
+        const real3 to_light = sub3(e->center, from);
+        const float d2 = kmax(dot3(to_light, to_light), REAL_MIN), height = -dot3(to_light, e->normal);
         if (!(height > 0 || e->is_double_sided)) return 0;
         /* The area in the denominator bounds the weight near the light; a tenth more cosine, its range. */
-        const float cos = kabs(height)/ksqrt(kmax(d2, REAL_MIN));
-        return e->strength*e->area*(0.1f + cos)/(d2 + e->area);
+        const float d = ksqrt(d2);
+        return e->strength*e->area*(0.1f*d + kabs(height))/(d*(d2 + e->area));
     }
     case EMITTER_SPHERE: {
         const sphere *sp = &set->scene->spheres[e->primitive];

@@ -3,7 +3,7 @@
 #include "render/loops.h"
 #include "render/sampler_point.h"
 
-enum { BLOCK = 4*LOOP_LANES };
+enum { BLOCK = LOOP_LANES };
 
 /* Over the elements of a block that are there, in whole vectors. */
 #define EACH_LANE(i) _Pragma("omp simd") for (size_t i = 0; i < BLOCK; i++)

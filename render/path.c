@@ -315,6 +315,20 @@ static uint32_t sort_by_material(path_batch *batch, const path_context *c, const
     return n;
 }
 
+/* Asks for the memory of hits that come next. */
+static void expect(const path_batch *batch, const path_context *c, const uint32_t *order, uint32_t k, uint32_t n)
+{
+    enum { AHEAD = 8 };
+    if (k + 2*AHEAD < n) {
+        const hit h = hit_at(batch, order[k + 2*AHEAD]);
+        surface_expect_triangle(c->surfaces, &h);
+    }
+    if (k + AHEAD < n) {
+        const hit h = hit_at(batch, order[k + AHEAD]);
+        surface_expect_vertices(c->surfaces, &h);
+    }
+}
+
 /* The surfaces that paths have met: their emission is gathered, and those that scatter become vertices. */
 static void meet_surfaces(path_batch *batch, const path_context *c, const path_list *list, bool is_last)
 {
@@ -328,7 +342,8 @@ static void meet_surfaces(path_batch *batch, const path_context *c, const path_l
         const hit h = hit_at(batch, i);
         const real3 wo = neg3(vector_of(r.direction));
         surface *at = &v->at[n];
-        *at = surface_at(c->surfaces, &r, &h, wo, fraction(batch->chance[0][i]), &v->own[n]);
+        expect(batch, c, order, k, n_hits);
+        surface_find(c->surfaces, &r, &h, wo, fraction(batch->chance[0][i]), &v->own[n], at);
         gather_emission(batch, c, list, i, at);
         if (!at->scatters || is_last) continue;
         set3(&v->wo, n, to_local(&at->shading, wo));

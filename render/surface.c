@@ -257,7 +257,7 @@ static real3 mapped_normal(const scene *s, const mesh *m, const material *mat, c
     return dot3(n, n) > 0 ? normalize3(n) : vertices.n;
 }
 
-static surface triangle_surface(const surface_set *set, const hit *h, real3 wo, float choice, facet_bsdf *own)
+static void find_on_triangle(const surface_set *set, const hit *h, real3 wo, float choice, facet_bsdf *own, surface *at)
 {
     const scene *s = set->scene;
     const placement *placed = &set->placements[h->instance];
@@ -268,20 +268,20 @@ static surface triangle_surface(const surface_set *set, const hit *h, real3 wo, 
     const float sign = placed->sign;
     const real3 p0 = vector_of(m->positions[w.vertex[0]]), p1 = vector_of(m->positions[w.vertex[1]]),
                 p2 = vector_of(m->positions[w.vertex[2]]);
-    surface at = {.position = map_point(in->to_world, mix_vertices3(&w, (const float(*)[3])m->positions))};
-    at.normal = scale3(sign,
-                       normal_of_edges(map_vector(in->to_world, sub3(p1, p0)), map_vector(in->to_world, sub3(p2, p0))));
-    at.is_front = dot3(at.normal, wo) > 0;
+    *at = (surface){.position = map_point(in->to_world, mix_vertices3(&w, (const float(*)[3])m->positions))};
+    at->normal = scale3(
+        sign, normal_of_edges(map_vector(in->to_world, sub3(p1, p0)), map_vector(in->to_world, sub3(p2, p0))));
+    at->is_front = dot3(at->normal, wo) > 0;
     const float local = kmax(max_abs3(p0), kmax(max_abs3(p1), max_abs3(p2)));
-    at.offset = RELATIVE_OFFSET*kmax(max_abs3(at.position), kmax(placed->column*local, placed->offset));
-    set_material(&at, set, m->material, m, &w, choice, own);
+    at->offset = RELATIVE_OFFSET*kmax(max_abs3(at->position), kmax(placed->column*local, placed->offset));
+    set_material(at, set, m->material, m, &w, choice, own);
 
     const bool is_mapped = mat->normal_texture.texture != NONE && mat->kind != SURFACE_UNLIT;
     if (!m->normals && !m->tangents && !m->uv[0] && !is_mapped) {
-        set_frame(&at, at.normal, true, splat3(0), 1, wo);
-        return at;
+        set_frame(at, at->normal, true, splat3(0), 1, wo);
+        return;
     }
-    real3 n = at.normal;
+    real3 n = at->normal;
     if (m->normals) {
         const real3 mixed = map_normal(in->to_world, sign, mix_vertices3(&w, (const float(*)[3])m->normals));
         if (dot3(mixed, mixed) > 0) n = normalize3(mixed);
@@ -299,29 +299,49 @@ static surface triangle_surface(const surface_set *set, const hit *h, real3 wo, 
         handedness *= sign;
     }
     if (is_mapped) n = mapped_normal(s, m, mat, &w, frame_around(n, tangent, handedness));
-    set_frame(&at, n, !m->normals && !is_mapped, tangent, handedness, wo);
-    return at;
+    set_frame(at, n, !m->normals && !is_mapped, tangent, handedness, wo);
 }
 
-static surface sphere_surface(const surface_set *set, const hit *h, real3 wo, real3 near, float choice, facet_bsdf *own)
+static void find_on_sphere(const surface_set *set, const hit *h, real3 wo, real3 near, float choice, facet_bsdf *own,
+                           surface *at)
 {
     const sphere *sp = &set->scene->spheres[h->primitive];
     const real3 center = vector_of(sp->center);
     const real3 outward = normalize3(sub3(near, center));
-    surface at = {.position = madd3(center, sp->radius, outward), .normal = outward};
-    at.is_front = dot3(outward, wo) > 0;
-    at.offset = RELATIVE_OFFSET*kmax(max_abs3(at.position), sp->radius);
-    set_material(&at, set, sp->material, NULL, NULL, choice, own);
+    *at = (surface){.position = madd3(center, sp->radius, outward), .normal = outward};
+    at->is_front = dot3(outward, wo) > 0;
+    at->offset = RELATIVE_OFFSET*kmax(max_abs3(at->position), sp->radius);
+    set_material(at, set, sp->material, NULL, NULL, choice, own);
     /* Tangents run around the y axis. */
-    set_frame(&at, outward, true, make3(outward.z, 0, -outward.x), 1, wo);
-    return at;
+    set_frame(at, outward, true, make3(outward.z, 0, -outward.x), 1, wo);
 }
 
-surface surface_at(const surface_set *set, const ray *r, const hit *h, real3 wo, float choice, facet_bsdf *own)
+void surface_find(const surface_set *set, const ray *r, const hit *h, real3 wo, float choice, facet_bsdf *own,
+                  surface *at)
 {
-    if (h->instance < set->scene->n_instances) return triangle_surface(set, h, wo, choice, own);
-    const real3 near = madd3(vector_of(r->origin), h->t, vector_of(r->direction));
-    return sphere_surface(set, h, wo, near, choice, own);
+    if (h->instance < set->scene->n_instances) {
+        find_on_triangle(set, h, wo, choice, own, at);
+    } else {
+        const real3 near = madd3(vector_of(r->origin), h->t, vector_of(r->direction));
+        find_on_sphere(set, h, wo, near, choice, own, at);
+    }
+}
+
+void surface_expect_triangle(const surface_set *set, const hit *h)
+{
+    if (h->instance < set->scene->n_instances)
+        __builtin_prefetch(&set->placements[h->instance].mesh->triangles[h->primitive]);
+}
+
+void surface_expect_vertices(const surface_set *set, const hit *h)
+{
+    if (h->instance >= set->scene->n_instances) return;
+    const mesh *m = set->placements[h->instance].mesh;
+    for (int k = 0; k < 3; k++) {
+        const uint32_t vertex = m->triangles[h->primitive][k];
+        __builtin_prefetch(&m->positions[vertex]);
+        if (m->normals) __builtin_prefetch(&m->normals[vertex]);
+    }
 }
 
 real3 surface_leave(const surface *at, real3 direction)

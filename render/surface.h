@@ -39,7 +39,12 @@ void surface_set_destroy(surface_set *set);
 /* The surface at a hit of ray r; wo = -direction, unit.  Where a material is part smooth interface, part opaque,
  * choice in [0,1) picks one of the two, each with its share as probability.  own: room for a bsdf made for this point;
  * to stay as long as the surface. */
-surface surface_at(const surface_set *set, const ray *r, const hit *h, real3 wo, float choice, facet_bsdf *own);
+void surface_find(const surface_set *set, const ray *r, const hit *h, real3 wo, float choice, facet_bsdf *own,
+                  surface *at);
+
+/* Fetches what surface_find will want of a hit into the caches: first the triangle, some hits later its vertices. */
+void surface_expect_triangle(const surface_set *set, const hit *h);
+void surface_expect_vertices(const surface_set *set, const hit *h);
 
 /* The index of the material at a hit. */
 size_t surface_material(const surface_set *set, const hit *h);

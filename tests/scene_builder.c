@@ -251,7 +251,8 @@ surface surface_of_hit(const scene *s, const ray *r, const hit *h, real3 wo)
     surface_set *set = NULL;
     facet_bsdf own;
     assert_int_equal(surface_set_create(s, &set), FACET_OK);
-    surface at = surface_at(set, r, h, wo, 0, &own);
+    surface at;
+    surface_find(set, r, h, wo, 0, &own, &at);
     at.bsdf = NULL;
     surface_set_destroy(set);
     return at;

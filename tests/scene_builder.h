@@ -58,7 +58,7 @@ size_t build_zone(scene *s, size_t mat, float cos_from, float cos_to, unsigned n
 
 void build_sphere(scene *s, size_t mat, float x, float y, float z, float radius);
 
-/* surface_at for one hit; its bsdf is NULL. */
+/* surface_find for one hit; its bsdf is NULL. */
 surface surface_of_hit(const scene *s, const ray *r, const hit *h, real3 wo);
 
 /* A camera at `eye` looking at `target`. */
