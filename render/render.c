@@ -388,6 +388,20 @@ void render_state_destroy(render_state *state)
     *state = (render_state){0};
 }
 
+void render_state_merge(render_state *state, const render_state *other)
+{
+    film_merge(&state->film, &other->film);
+    for (uint64_t k = 0; k < other->n_bad && state->n_bad + k < RENDER_MAX_REPORTED; k++)
+        state->bad[state->n_bad + k] = other->bad[k];
+    state->n_paths += other->n_paths;
+    state->n_rays += other->n_rays;
+    state->n_shadow_rays += other->n_shadow_rays;
+    state->n_bad += other->n_bad;
+    state->seconds += other->seconds;
+    state->cpu_seconds += other->cpu_seconds;
+    state->spp += other->spp;
+}
+
 void render_result_destroy(render_result *result)
 {
     image_destroy(&result->picture);

@@ -104,6 +104,9 @@ facet_status render_continue(const scene *s, const render_settings *settings, re
                              render_result *result, facet_error *why);
 void render_state_destroy(render_state *state);
 
+/* Adds another shard's state of the same render. */
+void render_state_merge(render_state *state, const render_state *other);
+
 /* What has been rendered, without the figures of a run: setup_seconds and is_complete. */
 facet_status render_develop(const render_state *state, render_result *result, facet_error *why);
 
