@@ -1,5 +1,6 @@
 /* cmd_render.c: `facet render`, a scene to pictures.
  * SPDX-License-Identifier: MIT */
+#include <ctype.h>
 #include <inttypes.h>
 #include <math.h>
 #include <signal.h>
@@ -7,13 +8,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/checkpointing.h"
 #include "cli/commands.h"
 #include "cli/progress.h"
+#include "cli/provenance.h"
 #include "cli/render_job.h"
 #include "cli/report.h"
 
 /* Where --time or --noise is to end the render and --spp does not say more. */
-enum { DEFAULT_SPP = 64, UNLIMITED_SPP = 65536, DEFAULT_DEPTH = 8, DEFAULT_HEIGHT = 540, MAX_SIDE = 65536 };
+enum { DEFAULT_SPP = 64, UNLIMITED_SPP = 65536, DEFAULT_DEPTH = 8, DEFAULT_HEIGHT = 540, MAX_SIDE = 65536, DEFAULT_INTERVAL = 60 };
 
 /* Set by the signal handler, read by the progress callback: the one thing that a signal can reach. */
 static volatile sig_atomic_t is_interrupted;
@@ -23,6 +26,7 @@ static void interrupt(int signal_number)
     is_interrupted = signal_number != 0;
     signal(SIGINT, SIG_DFL); /* a second signal ends the program at once */
     signal(SIGTERM, SIG_DFL);
+    signal(SIGHUP, SIG_DFL);
 }
 
 static void catch_signals(void)
@@ -30,27 +34,26 @@ static void catch_signals(void)
     struct sigaction action = {.sa_handler = interrupt, .sa_flags = SA_RESTART};
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    sigaction(SIGHUP, &action, NULL);
+}
+
+/* What the callbacks of a render need. */
+typedef struct watch {
+    progress progress;
+    saver saver;
+} watch;
+
+static void on_save(void *user, const render_state *state)
+{
+    watch *w = user;
+    save_checkpoint(&w->saver, state);
 }
 
 static bool on_progress(void *user, const render_progress *state)
 {
-    progress_show(user, state);
+    watch *w = user;
+    progress_show(&w->progress, state);
     return !is_interrupted;
-}
-
-/* The command line as a shell would take it; NULL without memory. */
-static char *quote_command(int argc, char **argv)
-{
-    size_t size = sizeof "facet";
-    for (int i = 0; i < argc; i++) size += shell_quote(NULL, 0, argv[i]) + 1;
-    char *text = malloc(size);
-    if (!text) return NULL;
-    size_t n = (size_t)snprintf(text, size, "facet");
-    for (int i = 0; i < argc; i++) {
-        text[n++] = ' ';
-        n += shell_quote(text + n, size - n, argv[i]);
-    }
-    return text;
 }
 
 /* Without -o: the scene's base name in the current folder, as PNG. */
@@ -88,7 +91,24 @@ static int choose_size(const render_options *o, const camera *c, render_settings
     return 0;
 }
 
-static void fill_settings(const render_options *o, size_t i_camera, progress *p, render_settings *r)
+/* --shard K/N */
+static int parse_shard(const render_options *o, render_settings *r)
+{
+    char *end, *last = NULL;
+    if (!o->shard) return 0;
+    const unsigned long shard = strtoul(o->shard, &end, 10), n_shards = *end == '/' ? strtoul(end + 1, &last, 10) : 0;
+    if (!last || *last || !isdigit((unsigned char)o->shard[0]) || !isdigit((unsigned char)end[1]) || shard < 1 ||
+        shard > n_shards)
+        return fail(EXIT_USAGE, NULL, "--shard", "`%s` is not K/N with K from 1 to N, such as 3/16", o->shard);
+    if (n_shards > r->spp)
+        return fail(EXIT_USAGE, NULL, "--shard", "%lu shards for %" PRIu32 " samples per pixel; give at most as many",
+                    n_shards, r->spp);
+    r->shard = (uint32_t)shard;
+    r->n_shards = (uint32_t)n_shards;
+    return 0;
+}
+
+static void fill_settings(const render_options *o, size_t i_camera, watch *w, render_settings *r)
 {
     const bool has_limit = o->time.is_given || o->noise.is_given;
     r->camera = i_camera;
@@ -104,7 +124,9 @@ static void fill_settings(const render_options *o, size_t i_camera, progress *p,
     r->time_limit = o->time.value;
     r->noise_target = o->noise.value;
     r->progress = on_progress;
-    r->user = p;
+    r->save = o->checkpoint ? on_save : NULL;
+    r->save_interval = o->checkpoint_interval.value;
+    r->user = w;
 }
 
 static void summarise(const render_options *o, const render_result *result)
@@ -117,24 +139,35 @@ static void summarise(const render_options *o, const render_result *result)
                 result->picture.height, result->spp, time, noise);
 }
 
+/* How far an interrupted render came, and how to go on. */
+static void tell_interruption(const render_options *o, const render_result *result)
+{
+    if (!o->checkpoint) note("interrupted after %" PRIu32 " samples per pixel", result->spp);
+    else
+        note("interrupted after %" PRIu32 " samples per pixel; `%s%s%s` goes on", result->spp, o->command_line,
+             o->resume ? "" : " --resume ", o->resume ? "" : o->checkpoint);
+}
+
 /* What comes after rendering: warnings, files, the summary. */
-static int finish(const render_options *o, const scene *s, const render_settings *r, const render_result *result,
+static int finish(const render_options *o, const saver *saved, const render_state *state, const render_result *result,
                   warning_list *warnings)
 {
-    if (result->spp == 0) {
-        note("interrupted before one sample per pixel was done; nothing is written");
-        return EXIT_INTERRUPTED;
-    }
     if (result->n_bad)
         keep_warning(warnings,
                      "%" PRIu64 " samples were not finite and count as black; the first is pixel %" PRIu32 ",%" PRIu32
                      ", sample %" PRIu32,
                      result->n_bad, result->bad[0].x, result->bad[0].y, result->bad[0].sample);
-    int status = write_outputs(o, s, r, result);
+    if (result->n_clamped)
+        keep_warning(warnings, "%" PRIu64 " samples were beyond a radiance of %.2g and count as that",
+                     result->n_clamped, (double)FILM_MOST);
+    provenance p;
+    provenance_collect(&p, o, saved->scene, saved->settings, state);
+    int status = write_outputs(o, &p, &result->picture);
     if (!status && !o->quiet) summarise(o, result);
-    if (is_interrupted && !o->quiet) note("interrupted after %" PRIu32 " samples per pixel", result->spp);
+    if (saved->why.status) status = fail_with(FROM_OUTPUT, o->checkpoint, &saved->why);
+    if (is_interrupted && !o->quiet) tell_interruption(o, result);
     if (o->json) {
-        print_render_json(o, r, result, warnings, is_interrupted);
+        print_render_json(o, saved->settings, result, warnings, is_interrupted);
         status = finish_stdout(status);
     }
     return status ? status : is_interrupted ? EXIT_INTERRUPTED : 0;
@@ -146,23 +179,40 @@ static int render_scene(render_options *o, warning_list *warnings)
     scene *s = NULL;
     size_t i_camera = 0;
     render_settings r;
+    render_state state = {0};
     render_result result = {0};
-    progress p = progress_start(o->quiet);
+    watch w = {.progress = progress_start(o->quiet)};
     int status = prepare_scene(o, warnings, &s, &i_camera);
     if (!status) {
         render_settings_defaults(&r);
-        fill_settings(o, i_camera, &p, &r);
+        fill_settings(o, i_camera, &w, &r);
         status = choose_size(o, &s->cameras[i_camera], &r);
     }
+    if (!status) status = parse_shard(o, &r);
+    if (!status && o->resume) status = resume_checkpoint(o, s, &r, &state);
     if (!status) {
+        w.saver = (saver){.options = o, .scene = s, .settings = &r};
         catch_signals();
-        const facet_status failed = render(s, &r, &result, &why);
-        progress_end(&p);
-        status = failed ? fail_with(FROM_INPUT, o->scene_path, &why) : finish(o, s, &r, &result, warnings);
+        const facet_status failed = render_continue(s, &r, &state, &result, &why);
+        progress_end(&w.progress);
+        status = failed ? fail_with(FROM_INPUT, o->scene_path, &why) : finish(o, &w.saver, &state, &result, warnings);
         if (!failed) render_result_destroy(&result);
     }
+    render_state_destroy(&state);
     scene_destroy(s);
     return status;
+}
+
+/* Options that need each other, or exclude each other. */
+static int check_checkpointing(const render_options *o)
+{
+    if (o->shard && !o->checkpoint)
+        return fail(EXIT_USAGE, NULL, "--shard", "needs --checkpoint FILE, which is its result");
+    if (o->shard && (o->time.is_given || o->noise.is_given))
+        return fail(EXIT_USAGE, NULL, "--shard", "does not go with --time or --noise; give --spp");
+    if (o->checkpoint_interval.is_given && !o->checkpoint)
+        return fail(EXIT_USAGE, NULL, "--checkpoint-interval", "needs --checkpoint FILE");
+    return o->checkpoint ? check_checkpoint(o->checkpoint) : 0;
 }
 
 /* Options that have no effect on the outputs named are told, not obeyed in silence. */
@@ -177,15 +227,17 @@ static void warn_of_useless(const render_options *o, warning_list *warnings)
 
 static int run(int argc, char **argv)
 {
-    render_options o = {.depth = DEFAULT_DEPTH, .strategy = "mis", .sampler = "sobol", .view = "filmic"};
+    render_options o = {.depth = DEFAULT_DEPTH, .strategy = "mis", .sampler = "sobol", .view = "filmic",
+                        .checkpoint_interval = {.value = DEFAULT_INTERVAL}};
     warning_list warnings = {0};
     int status = options_parse(&render_command, argc, argv, &o, &o.scene_path);
     if (status != PARSE_GO) return status;
     if (o.scene_path && strcmp(o.scene_path, "demo") == 0) o.scene_path = NULL;
     o.command_line = quote_command(argc, argv);
     status = o.command_line ? 0 : fail_memory();
-    if (!status && o.outputs.n == 0) status = name_output(&o);
+    if (!status && o.outputs.n == 0 && !o.shard) status = name_output(&o);
     if (!status) status = check_outputs(&o);
+    if (!status) status = check_checkpointing(&o);
     if (!status) {
         warn_of_useless(&o, &warnings);
         status = render_scene(&o, &warnings);
@@ -228,6 +280,16 @@ static const option options[] = {
     {"isa", 0, OPTION_CHOICE, AT(isa), NULL,
      "instruction set of the ray tracer, on which the last bits of a picture depend (default avx2 where there is one)",
      0, 0, "sse2|sse4.2|avx|avx2|avx512"},
+    {"checkpoint", 0, OPTION_TEXT, AT(checkpoint), "FILE",
+     "keep what has been rendered in FILE, written now and then, when interrupted and at the end", 0, 0, NULL},
+    {"checkpoint-interval", 0, OPTION_NUMBER, AT(checkpoint_interval), "SECONDS",
+     "time between two checkpoints (default 60)", 0, 1e9, NULL},
+    {"resume", 0, OPTION_TEXT, AT(resume), "FILE",
+     "go on from this checkpoint, to the same bits as without a stop; if it is the file of --checkpoint, too, it need "
+     "not exist yet",
+     0, 0, NULL},
+    {"shard", 0, OPTION_TEXT, AT(shard), "K/N",
+     "render only the K-th of N parts of the samples, as --checkpoint FILE; `facet merge` adds them up", 0, 0, NULL},
     {"exposure", 0, OPTION_NUMBER, AT(exposure), "EV", ".png: brighten by 2^EV (default 0)", -50, 50, NULL},
     {"view", 0, OPTION_CHOICE, AT(view), NULL, ".png: how radiance becomes display values (default filmic)", 0, 0,
      "standard|filmic|agx"},
@@ -244,12 +306,15 @@ const command render_command = {
     .description =
         "Renders a glTF 2.0 scene, or the built-in demo scene if none is named.  A scene without a camera is seen\n"
         "whole; one without any light stands in a uniform white environment.\n"
-        "Interrupted (Ctrl-C), it writes what it has and exits with status 130; a second Ctrl-C ends it at once.\n"
+        "Interrupted (Ctrl-C, SIGTERM or SIGHUP), it writes what it has and exits with status 130; a second signal\n"
+        "ends it at once.  With --checkpoint FILE --resume FILE, the same command starts a render and goes on with it.\n"
         "Outputs are checked before rendering, written beside and renamed, and carry their provenance (version,\n"
         "command line, scene hash, seed, ...) as metadata.\n",
     .examples = "  facet render\n"
                 "  facet render scene.glb -o scene.exr -o scene.png --spp 256 --size 1280x720\n"
-                "  facet render scene.gltf --env studio.hdr --material body='ggx alpha=.1 ks=.9,.7,.3' --time 60\n",
+                "  facet render scene.gltf --env studio.hdr --material body='ggx alpha=.1 ks=.9,.7,.3' --time 60\n"
+                "  facet render scene.glb --spp 1024 --checkpoint scene.ckpt --resume scene.ckpt\n"
+                "  facet render scene.glb --spp 1024 --shard 3/16 --checkpoint part3.ckpt --resume part3.ckpt\n",
     .options = options,
     .n_options = sizeof options/sizeof *options,
     .run = run,

@@ -17,12 +17,13 @@ typedef struct render_options {
     uint64_t spp, depth, threads, seed;
     size_t size[2], crop[4];
     const char *camera, *env, *strategy, *sampler, *isa, *view;
-    option_number env_scale, time, noise, exposure;
+    const char *checkpoint, *resume, *shard;
+    option_number env_scale, time, noise, exposure, checkpoint_interval;
     bool half, quiet, json;
     /* what the command line as a whole leads to */
     const char *scene_path; /* NULL: the demo scene */
     char *default_output;   /* owned; NULL when outputs were named */
-    char *command_line;     /* owned; quoted for a shell */
+    char *command_line;     /* owned; quoted for a shell; of a resumed render, that of its first run */
 } render_options;
 
 /* Warnings, kept for --json after they were printed. */
@@ -49,9 +50,15 @@ int prepare_scene(const render_options *o, warning_list *warnings, scene **resul
 /* Refuses outputs that could not be written at the end: unknown kinds, missing folders, repeated names. */
 int check_outputs(const render_options *o);
 
+/* The same for a checkpoint; what killed runs have left beside it is removed. */
+int check_checkpoint(const char *path);
+
+/* The command line as a shell would take it, owned by the caller; NULL without memory. */
+char *quote_command(int argc, char **argv);
+
 /* Writes all outputs with their provenance.  One that fails does not keep the others from being written. */
-int write_outputs(const render_options *o, const scene *s, const render_settings *settings,
-                  const render_result *result);
+struct provenance;
+int write_outputs(const render_options *o, const struct provenance *p, const image *picture);
 
 /* The render's summary as one JSON object on stdout. */
 void print_render_json(const render_options *o, const render_settings *settings, const render_result *result,
