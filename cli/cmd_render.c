@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli/checkpointing.h"
 #include "cli/commands.h"
@@ -35,6 +36,17 @@ static void catch_signals(void)
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
     sigaction(SIGHUP, &action, NULL);
+}
+
+/* Embree's threads end the program where they get no memory; this is the one line and status that are left to say so.
+ * Only what is safe in a signal handler. */
+static void explain_abort(int signal_number)
+{
+    static const char text[] = "facet: error: the ray tracer gave up, most often for want of memory; checkpoints and "
+                               "pictures already written are whole\n";
+    (void)signal_number;
+    (void)!write(STDERR_FILENO, text, sizeof text - 1);
+    _exit(EXIT_WORLD);
 }
 
 /* What the callbacks of a render need. */
@@ -193,7 +205,9 @@ static int render_scene(render_options *o, warning_list *warnings)
     if (!status) {
         w.saver = (saver){.options = o, .scene = s, .settings = &r};
         catch_signals();
+        signal(SIGABRT, explain_abort);
         const facet_status failed = render_continue(s, &r, &state, &result, &why);
+        signal(SIGABRT, SIG_DFL);
         progress_end(&w.progress);
         status = failed ? fail_with(FROM_INPUT, o->scene_path, &why) : finish(o, &w.saver, &state, &result, warnings);
         if (!failed) render_result_destroy(&result);

@@ -51,6 +51,7 @@ int check_outputs(const render_options *o)
         if (status) return status;
         if (stat(path, &information) == 0 && !S_ISREG(information.st_mode))
             return fail(EXIT_WORLD, path, NULL, "exists and is not a regular file; name another output");
+        file_remove_leftovers(path);
     }
     return 0;
 }

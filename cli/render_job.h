@@ -47,10 +47,11 @@ void keep_gltf_warning(void *user, const char *text);
  * 0 or the exit status of the error that it printed; *result is the caller's to destroy in both cases. */
 int prepare_scene(const render_options *o, warning_list *warnings, scene **result, size_t *i_camera);
 
-/* Refuses outputs that could not be written at the end: unknown kinds, missing folders, repeated names. */
+/* Refuses outputs that could not be written at the end: unknown kinds, missing folders, repeated names.  What killed
+ * runs have left beside them is removed. */
 int check_outputs(const render_options *o);
 
-/* The same for a checkpoint; what killed runs have left beside it is removed. */
+/* The same for a checkpoint. */
 int check_checkpoint(const char *path);
 
 /* The command line as a shell would take it, owned by the caller; NULL without memory. */
