@@ -19,6 +19,7 @@ void save_checkpoint(saver *to, const render_state *state)
     provenance_collect(&p, to->options, to->scene, to->settings, state);
     to->why.status = checkpoint_write(path, state, p.pairs, p.n_checkpoint, &to->why);
     if (to->why.status) warn("%s: %s; the render goes on", path, to->why.text);
+    events_checkpoint(to->events, path, state, to->why.status == FACET_OK);
 }
 
 /* What the checkpoint and this render must have in common. */

@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #pragma once
 
+#include "cli/events.h"
 #include "cli/render_job.h"
 
 #ifdef __cplusplus
@@ -13,6 +14,7 @@ typedef struct saver {
     const render_options *options;
     const struct scene *scene;
     const render_settings *settings;
+    event_log *events;
     facet_error why; /* of the last one; status FACET_OK if it was written */
 } saver;
 

@@ -11,6 +11,7 @@
 
 #include "cli/checkpointing.h"
 #include "cli/commands.h"
+#include "cli/events.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/render_job.h"
@@ -53,6 +54,7 @@ static void explain_abort(int signal_number)
 typedef struct watch {
     progress progress;
     saver saver;
+    event_log *events;
 } watch;
 
 static void on_save(void *user, const render_state *state)
@@ -65,6 +67,7 @@ static bool on_progress(void *user, const render_progress *state)
 {
     watch *w = user;
     progress_show(&w->progress, state);
+    events_progress(w->events, state);
     return !is_interrupted;
 }
 
@@ -193,7 +196,7 @@ static int render_scene(render_options *o, warning_list *warnings)
     render_settings r;
     render_state state = {0};
     render_result result = {0};
-    watch w = {.progress = progress_start(o->quiet)};
+    watch w = {.progress = progress_start(o->quiet), .events = warnings->events};
     int status = prepare_scene(o, warnings, &s, &i_camera);
     if (!status) {
         render_settings_defaults(&r);
@@ -203,15 +206,17 @@ static int render_scene(render_options *o, warning_list *warnings)
     if (!status) status = parse_shard(o, &r);
     if (!status && o->resume) status = resume_checkpoint(o, s, &r, &state);
     if (!status) {
-        w.saver = (saver){.options = o, .scene = s, .settings = &r};
+        w.saver = (saver){.options = o, .scene = s, .settings = &r, .events = warnings->events};
+        events_start(warnings->events, o, &r, &state);
         catch_signals();
         signal(SIGABRT, explain_abort);
         const facet_status failed = render_continue(s, &r, &state, &result, &why);
         signal(SIGABRT, SIG_DFL);
         progress_end(&w.progress);
         status = failed ? fail_with(FROM_INPUT, o->scene_path, &why) : finish(o, &w.saver, &state, &result, warnings);
-        if (!failed) render_result_destroy(&result);
     }
+    events_done(warnings->events, o, &result, status);
+    render_result_destroy(&result);
     render_state_destroy(&state);
     scene_destroy(s);
     return status;
@@ -243,7 +248,8 @@ static int run(int argc, char **argv)
 {
     render_options o = {.depth = DEFAULT_DEPTH, .strategy = "mis", .sampler = "sobol", .view = "filmic",
                         .checkpoint_interval = {.value = DEFAULT_INTERVAL}};
-    warning_list warnings = {0};
+    event_log events = {0};
+    warning_list warnings = {.events = &events};
     int status = options_parse(&render_command, argc, argv, &o, &o.scene_path);
     if (status != PARSE_GO) return status;
     if (o.scene_path && strcmp(o.scene_path, "demo") == 0) o.scene_path = NULL;
@@ -252,10 +258,12 @@ static int run(int argc, char **argv)
     if (!status && o.outputs.n == 0 && !o.shard) status = name_output(&o);
     if (!status) status = check_outputs(&o);
     if (!status) status = check_checkpointing(&o);
+    if (!status) status = events_open(&events, o.events);
     if (!status) {
         warn_of_useless(&o, &warnings);
         status = render_scene(&o, &warnings);
     }
+    events_close(&events);
     warning_list_destroy(&warnings);
     free(o.default_output);
     free(o.command_line);
@@ -309,6 +317,10 @@ static const option options[] = {
      "standard|filmic|agx"},
     {"half", 0, OPTION_FLAG, AT(half), NULL, ".exr: 16-bit floats instead of 32-bit ones", 0, 0, NULL},
     {"quiet", 0, OPTION_FLAG, AT(quiet), NULL, "no progress and no notes; errors and warnings stay", 0, 0, NULL},
+    {"events", 0, OPTION_TEXT, AT(events), "FILE",
+     "append what happens (start, progress, checkpoints, warnings, the end) to FILE as it does, one JSON object a "
+     "line; - is stderr",
+     0, 0, NULL},
     {"json", 0, OPTION_FLAG, AT(json), NULL, "print one JSON object about the render on stdout at the end", 0, 0, NULL},
 };
 

@@ -17,7 +17,7 @@ typedef struct render_options {
     uint64_t spp, depth, threads, seed;
     size_t size[2], crop[4];
     const char *camera, *env, *strategy, *sampler, *isa, *view;
-    const char *checkpoint, *resume, *shard;
+    const char *checkpoint, *resume, *shard, *events;
     option_number env_scale, time, noise, exposure, checkpoint_interval;
     bool half, quiet, json;
     /* what the command line as a whole leads to */
@@ -30,6 +30,7 @@ typedef struct render_options {
 typedef struct warning_list {
     char **items;
     size_t n, n_dropped;
+    struct event_log *events; /* told of each; may be NULL */
 } warning_list;
 
 /* Prints a warning and keeps it; beyond a cap it is only counted. */

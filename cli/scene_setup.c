@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/commands.h"
+#include "cli/events.h"
 #include "cli/render_job.h"
 #include "cli/report.h"
 #include "cli/suggest.h"
@@ -31,6 +32,7 @@ void keep_warning(warning_list *list, const char *format, ...)
         return;
     }
     warn("%s", text);
+    if (list->events) events_warning(list->events, text);
     list->items[list->n] = strdup(text);
     if (list->items[list->n]) list->n++;
 }
