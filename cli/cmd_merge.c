@@ -79,8 +79,9 @@ static int check_gaps(const merging *m)
         bool is_there = false;
         for (size_t i = 0; i < m->n; i++) is_there |= m->shards[i].number == number;
         if (!is_there)
-            return fail(EXIT_INPUT, NULL, NULL, "shard %" PRIu32 "/%" PRIu32 " is missing; %zu of %" PRIu32 " are given",
-                        number, n_shards, m->n, n_shards);
+            return fail(EXIT_INPUT, NULL, NULL,
+                        "shard %" PRIu32 "/%" PRIu32 " is missing; %zu of %" PRIu32 " are given", number, n_shards,
+                        m->n, n_shards);
     }
     return 0;
 }
@@ -178,8 +179,8 @@ const command merge_command = {
     .max_operands = MOST_SHARDS,
     .description =
         "Adds the checkpoints of all shards of a render (`facet render --shard K/N`), in any order, to the picture\n"
-        "that one render of all samples gives, bit for bit.  Refuses a shard that is missing, there twice, not finished\n"
-        "or of another render.  Of a single checkpoint without shards, it writes the picture as far as it is.\n",
+        "that one render of all samples gives, bit for bit.  Refuses a shard that is missing, there twice, not\n"
+        "finished or of another render.  A single checkpoint without shards becomes a picture as far as it is.\n",
     .examples = "  facet merge part*.ckpt -o scene.exr -o scene.png\n",
     .options = options,
     .n_options = sizeof options/sizeof *options,

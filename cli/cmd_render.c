@@ -18,7 +18,14 @@
 #include "cli/report.h"
 
 /* Where --time or --noise is to end the render and --spp does not say more. */
-enum { DEFAULT_SPP = 64, UNLIMITED_SPP = 65536, DEFAULT_DEPTH = 8, DEFAULT_HEIGHT = 540, MAX_SIDE = 65536, DEFAULT_INTERVAL = 60 };
+enum {
+    DEFAULT_SPP = 64,
+    UNLIMITED_SPP = 65536,
+    DEFAULT_DEPTH = 8,
+    DEFAULT_HEIGHT = 540,
+    MAX_SIDE = 65536,
+    DEFAULT_INTERVAL = 60
+};
 
 /* Set by the signal handler, read by the progress callback: the one thing that a signal can reach. */
 static volatile sig_atomic_t is_interrupted;
@@ -246,7 +253,10 @@ static void warn_of_useless(const render_options *o, warning_list *warnings)
 
 static int run(int argc, char **argv)
 {
-    render_options o = {.depth = DEFAULT_DEPTH, .strategy = "mis", .sampler = "sobol", .view = "filmic",
+    render_options o = {.depth = DEFAULT_DEPTH,
+                        .strategy = "mis",
+                        .sampler = "sobol",
+                        .view = "filmic",
                         .checkpoint_interval = {.value = DEFAULT_INTERVAL}};
     event_log events = {0};
     warning_list warnings = {.events = &events};
@@ -333,7 +343,7 @@ const command render_command = {
         "Renders a glTF 2.0 scene, or the built-in demo scene if none is named.  A scene without a camera is seen\n"
         "whole; one without any light stands in a uniform white environment.\n"
         "Interrupted (Ctrl-C, SIGTERM or SIGHUP), it writes what it has and exits with status 130; a second signal\n"
-        "ends it at once.  With --checkpoint FILE --resume FILE, the same command starts a render and goes on with it.\n"
+        "ends it at once.  With --checkpoint FILE --resume FILE, one command starts a render and goes on with it.\n"
         "Outputs are checked before rendering, written beside and renamed, and carry their provenance (version,\n"
         "command line, scene hash, seed, ...) as metadata.\n",
     .examples = "  facet render\n"

@@ -230,8 +230,8 @@ static facet_status read_head(FILE *stream, uint64_t size, checkpoint *c, uint32
         f->width > IMAGE_PIXEL_CAP/f->height || *text_size > TEXT_CAP)
         return facet_error_set(why, FACET_UNSUPPORTED, "", "is of a picture of %zux%zu pixels, which is too large",
                                f->width, f->height);
-    const uint64_t expected =
-        HEAD_SIZE + CRC_SIZE + *text_size + CRC_SIZE + f->height*((uint64_t)f->width*PIXEL_SIZE + CRC_SIZE);
+    const uint64_t expected = HEAD_SIZE + CRC_SIZE + *text_size + CRC_SIZE +
+                              f->height*((uint64_t)f->width*PIXEL_SIZE + CRC_SIZE);
     if (size != expected)
         return facet_error_set(why, FACET_BAD_FILE, "",
                                "is damaged: it has %" PRIu64 " bytes in place of %" PRIu64

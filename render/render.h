@@ -43,7 +43,8 @@ typedef struct bad_sample {
 
 /* All that a render has done, from which it can be continued.  Everything adds up over parts of a render. */
 typedef struct render_state {
-    film film; /* of crop_w x crop_h; its samples are the first of the shard's share, the same number in all of a tile */
+    struct film
+        film; /* of crop_w x crop_h; its samples are the first of the shard's share, the same number in all of a tile */
     uint64_t n_paths, n_rays, n_shadow_rays;
     uint64_t n_bad; /* samples that were NaN or infinite */
     bad_sample bad[RENDER_MAX_REPORTED];
@@ -64,10 +65,10 @@ typedef struct render_settings {
     enum strategy strategy;
     sampler_kind sampler;
     uint32_t shard, n_shards; /* render the samples of the shard-th of n_shards, from 1; n_shards == 0: all of them */
-    const char *isa;     /* Embree's instruction set: "sse2", "sse4.2", "avx", "avx2", "avx512";
+    const char *isa;          /* Embree's instruction set: "sse2", "sse4.2", "avx", "avx2", "avx512";
                                                 NULL: avx2 where there is one, else the best */
-    double time_limit;   /* [s], with what a continued render took before; 0: none.  Checked between passes */
-    double noise_target; /* stop at this estimated relative error; 0: none */
+    double time_limit;        /* [s], with what a continued render took before; 0: none.  Checked between passes */
+    double noise_target;      /* stop at this estimated relative error; 0: none */
     /* Called on the calling thread about ten times a second; false asks for an early end.  May be NULL. */
     bool (*progress)(void *user, const render_progress *state);
     /* Called on the calling thread every save_interval [s] and when rendering ends, while no thread works.  May be

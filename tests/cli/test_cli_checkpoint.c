@@ -53,12 +53,23 @@ static void expect(program_run run, int status, const char *in_err)
 static void stop_a_render(const char *name)
 {
     unlink(in_folder(folder, name));
-    const char *const argv[] = {FACET_PROGRAM, "render",       "scene.gltf",
-                                "--size",      "48x24",        "--quiet",
-                                "--spp",       "30",           "-o",
-                                "stopped.exr", "--checkpoint", name,
-                                "--threads",   "1",            "--checkpoint-interval",
-                                "0",           NULL};
+    const char *const argv[] = {FACET_PROGRAM,
+                                "render",
+                                "scene.gltf",
+                                "--size",
+                                "48x24",
+                                "--quiet",
+                                "--spp",
+                                "30",
+                                "-o",
+                                "stopped.exr",
+                                "--checkpoint",
+                                name,
+                                "--threads",
+                                "1",
+                                "--checkpoint-interval",
+                                "0",
+                                NULL};
     const pid_t pid = start_program(folder, NULL, NULL, argv);
     while (access(in_folder(folder, name), F_OK) != 0) usleep(500);
     kill(pid, SIGTERM);
@@ -116,8 +127,8 @@ static void each_signal_saves_a_checkpoint(void **state)
     for (size_t i = 0; i < sizeof signals/sizeof *signals; i++) {
         unlink(in_folder(folder, "s.ckpt"));
         unlink(in_folder(folder, "stderr"));
-        const char *const argv[] = {FACET_PROGRAM, "render",       "scene.gltf", "--size", "48x24", "-o", "s.exr",
-                                    "--time",      "60",           "--checkpoint", "s.ckpt", NULL};
+        const char *const argv[] = {FACET_PROGRAM, "render", "scene.gltf", "--size",       "48x24",  "-o",
+                                    "s.exr",       "--time", "60",         "--checkpoint", "s.ckpt", NULL};
         const pid_t pid = start_program(folder, NULL, NULL, argv);
         wait_for_progress();
         kill(pid, signals[i]);
@@ -155,9 +166,8 @@ static void checkpoints_of_other_renders_are_refused(void **state)
     };
     expect(RENDER("--spp", "30", "-o", "c.exr", "--checkpoint", "c.ckpt"), 0, "");
     for (size_t i = 0; i < sizeof cases/sizeof *cases; i++) {
-        const char *argv[20] = {FACET_PROGRAM, "render", "scene.gltf",   "--quiet",  "--resume",
-                                "c.ckpt",      "-o",     "d.exr",        "--checkpoint", "d.ckpt",
-                                cases[i].option, cases[i].value};
+        const char *argv[20] = {FACET_PROGRAM, "render", "scene.gltf",   "--quiet", "--resume",      "c.ckpt",
+                                "-o",          "d.exr",  "--checkpoint", "d.ckpt",  cases[i].option, cases[i].value};
         size_t n = 12;
         if (strcmp(cases[i].option, "--spp") != 0) argv[n++] = "--spp", argv[n++] = "30";
         if (strcmp(cases[i].option, "--size") != 0) argv[n++] = "--size", argv[n++] = "48x24";
@@ -234,17 +244,19 @@ static void an_unfinished_shard_tells_how_to_finish_it(void **state)
 {
     (void)state;
     unlink(in_folder(folder, "u.ckpt"));
-    const char *const argv[] = {FACET_PROGRAM, "render",  "scene.gltf", "--size",       "48x24",  "--spp",
-                                "65536",       "--shard", "2/2",        "--checkpoint", "u.ckpt", "--checkpoint-interval",
-                                "0",           NULL};
+    const char *const argv[] = {
+        FACET_PROGRAM, "render",  "scene.gltf", "--size",       "48x24",  "--spp",
+        "65536",       "--shard", "2/2",        "--checkpoint", "u.ckpt", "--checkpoint-interval",
+        "0",           NULL};
     const pid_t pid = start_program(folder, NULL, NULL, argv);
     while (access(in_folder(folder, "u.ckpt"), F_OK) != 0) usleep(500);
     kill(pid, SIGTERM);
     assert_int_equal(wait_for_program(pid), 130);
     program_run run = RUN("merge", "u.ckpt", "-o", "x.exr");
     assert_non_null(strstr(run.err, "facet: error: u.ckpt: shard 2/2 has "));
-    expect(run, 3, " of its 32768 samples per pixel; finish it: facet render scene.gltf --size 48x24 --spp 65536 "
-                   "--shard 2/2 --checkpoint u.ckpt --checkpoint-interval 0 --resume u.ckpt\n");
+    expect(run, 3,
+           " of its 32768 samples per pixel; finish it: facet render scene.gltf --size 48x24 --spp 65536 "
+           "--shard 2/2 --checkpoint u.ckpt --checkpoint-interval 0 --resume u.ckpt\n");
 }
 
 static void wrong_usage_is_told_before_rendering(void **state)

@@ -1,5 +1,5 @@
-/* test_kills.c: kill -9 at random moments of a render, each followed by a resume that ends bit for bit as if nothing had
- * happened.  10 kills; FACET_KILLS=200 is the long form.  Prints what the kills met.
+/* test_kills.c: kill -9 at random moments of a render, each followed by a resume that ends bit for bit as if nothing
+ * had happened.  10 kills; FACET_KILLS=200 is the long form.  Prints what the kills met.
  * SPDX-License-Identifier: MIT */
 #include <dirent.h>
 #include <setjmp.h>
@@ -55,10 +55,25 @@ static void wait_for(double seconds)
 /* The same command each time: it starts, or goes on. */
 static pid_t start(const char *interval, const char *threads)
 {
-    const char *const argv[] = {FACET_PROGRAM, "render",    "scene.gltf", "--size",       "96x48",
-                                "--spp",       "160",       "-o",         "killed.exr",   "--quiet",
-                                "--threads",   threads,     "--resume",   "k.ckpt",       "--checkpoint",
-                                "k.ckpt",      "--checkpoint-interval",   interval,       NULL};
+    const char *const argv[] = {FACET_PROGRAM,
+                                "render",
+                                "scene.gltf",
+                                "--size",
+                                "96x48",
+                                "--spp",
+                                "160",
+                                "-o",
+                                "killed.exr",
+                                "--quiet",
+                                "--threads",
+                                threads,
+                                "--resume",
+                                "k.ckpt",
+                                "--checkpoint",
+                                "k.ckpt",
+                                "--checkpoint-interval",
+                                interval,
+                                NULL};
     return start_program(folder, NULL, NULL, argv);
 }
 

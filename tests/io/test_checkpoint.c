@@ -225,7 +225,8 @@ static void each_refusal_has_its_reason(void **state)
 static void leftovers_of_killed_writers_are_removed(void **state)
 {
     (void)state;
-    static const char *const names[] = {"d.ckpt", "d.ckpt.tmp-17-0", "d.ckpt.tmp-9-3", "dd.ckpt.tmp-17-0", "d.ckpt.tmp"};
+    static const char *const names[] = {"d.ckpt", "d.ckpt.tmp-17-0", "d.ckpt.tmp-9-3", "dd.ckpt.tmp-17-0",
+                                        "d.ckpt.tmp"};
     static const int stays[] = {1, 0, 0, 1, 1};
     for (size_t i = 0; i < 5; i++) write_text(in_folder(folder, names[i]), "x");
     file_remove_leftovers(in_folder(folder, "d.ckpt"));

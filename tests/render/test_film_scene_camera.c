@@ -30,8 +30,8 @@ static void a_film_develops_means(void **state)
     }
     assert_int_equal(film_develop(&f, &picture), FACET_OK);
     const float *p = picture.pixels;
-    assert_true(p[15] == 50000000.5f && p[16] == 2 && p[17] == 0.1f); 
-    assert_true(p[0] == 1 && p[1] == 0 && p[3] == 0);                 /* a pixel without samples is black */
+    assert_true(p[15] == 50000000.5f && p[16] == 2 && p[17] == 0.1f);
+    assert_true(p[0] == 1 && p[1] == 0 && p[3] == 0); /* a pixel without samples is black */
     image_destroy(&picture);
     film_destroy(&f);
 }
@@ -39,9 +39,9 @@ static void a_film_develops_means(void **state)
 /* A sample: most are ordinary light, the others what a float can hold. */
 static void draw_sample(draws *d, float rgb[3])
 {
-    static const float extremes[] = {0,     -0.f,      1e-45f,    FLT_MIN,   0x1p-52f, 0x1p-53f, 0x1.8p-52f, 2047.9f,
-                                     2048,  0x1p11f,   1e9f,      FILM_MOST, 0x1p51f,  FLT_MAX,  -FLT_MAX,   -1,
-                                     -1e6f, -0x1p-52f, -FILM_MOST};
+    static const float extremes[] = {0,        -0.f, 1e-45f,  FLT_MIN,   0x1p-52f,  0x1p-53f, 0x1.8p-52f,
+                                     2047.9f,  2048, 0x1p11f, 1e9f,      FILM_MOST, 0x1p51f,  FLT_MAX,
+                                     -FLT_MAX, -1,   -1e6f,   -0x1p-52f, -FILM_MOST};
     for (int k = 0; k < 3; k++)
         rgb[k] = draw(d) < .7 ? (float)draw_log(d, 1e-12, 1e12)
                               : extremes[(size_t)(draw(d)*(double)(sizeof extremes/sizeof *extremes))];
