@@ -1,61 +1,20 @@
 /* cmd_render.c: `facet render`, a scene to pictures.
  * SPDX-License-Identifier: MIT */
-#include <ctype.h>
 #include <inttypes.h>
-#include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "cli/checkpointing.h"
 #include "cli/commands.h"
 #include "cli/events.h"
+#include "cli/interruption.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/render_job.h"
 #include "cli/report.h"
 
-/* Where --time or --noise is to end the render and --spp does not say more. */
-enum {
-    DEFAULT_SPP = 64,
-    UNLIMITED_SPP = 65536,
-    DEFAULT_DEPTH = 8,
-    DEFAULT_HEIGHT = 540,
-    MAX_SIDE = 65536,
-    DEFAULT_INTERVAL = 60
-};
-
-/* Set by the signal handler, read by the progress callback: the one thing that a signal can reach. */
-static volatile sig_atomic_t is_interrupted;
-
-static void interrupt(int signal_number)
-{
-    is_interrupted = signal_number != 0;
-    signal(SIGINT, SIG_DFL); /* a second signal ends the program at once */
-    signal(SIGTERM, SIG_DFL);
-    signal(SIGHUP, SIG_DFL);
-}
-
-static void catch_signals(void)
-{
-    struct sigaction action = {.sa_handler = interrupt, .sa_flags = SA_RESTART};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    sigaction(SIGHUP, &action, NULL);
-}
-
-/* Embree's threads end the program where they get no memory; this is the one line and status that are left to say so.
- * Only what is safe in a signal handler. */
-static void explain_abort(int signal_number)
-{
-    static const char text[] = "facet: error: the ray tracer gave up, most often for want of memory; checkpoints and "
-                               "pictures already written are whole\n";
-    (void)signal_number;
-    (void)!write(STDERR_FILENO, text, sizeof text - 1);
-    _exit(EXIT_WORLD);
-}
+enum { DEFAULT_DEPTH = 8, DEFAULT_INTERVAL = 60 };
 
 /* What the callbacks of a render need. */
 typedef struct watch {
@@ -75,7 +34,7 @@ static bool on_progress(void *user, const render_progress *state)
     watch *w = user;
     progress_show(&w->progress, state);
     events_progress(w->events, state);
-    return !is_interrupted;
+    return !is_interrupted();
 }
 
 /* Without -o: the scene's base name in the current folder, as PNG. */
@@ -89,66 +48,6 @@ static int name_output(render_options *o)
     snprintf(o->default_output, length + sizeof ".png", "%.*s.png", (int)length, base);
     o->outputs.items[o->outputs.n++] = o->default_output;
     return 0;
-}
-
-/* Size from --size, else from the camera's aspect; crop within it. */
-static int choose_size(const render_options *o, const camera *c, render_settings *r)
-{
-    const double aspect = c->aspect > 0 ? c->aspect : 16.0/9;
-    r->height = o->size[1] ? o->size[1] : DEFAULT_HEIGHT;
-    r->width = o->size[0] ? o->size[0] : (size_t)fmin(fmax(round(DEFAULT_HEIGHT*aspect), 1), MAX_SIDE);
-    if (r->width > MAX_SIDE || r->height > MAX_SIDE || r->width > IMAGE_PIXEL_CAP/r->height)
-        return fail(EXIT_USAGE, NULL, "--size",
-                    "%zux%zu is too large; a picture has at most %d pixels a side and %zu in all", r->width, r->height,
-                    MAX_SIDE, IMAGE_PIXEL_CAP);
-    const size_t *crop = o->crop;
-    if (crop[2] &&
-        (crop[0] >= r->width || crop[2] > r->width - crop[0] || crop[1] >= r->height || crop[3] > r->height - crop[1]))
-        return fail(EXIT_USAGE, NULL, "--crop", "%zu,%zu,%zu,%zu does not lie inside the picture of %zux%zu pixels",
-                    crop[0], crop[1], crop[2], crop[3], r->width, r->height);
-    r->crop_x = crop[0];
-    r->crop_y = crop[1];
-    r->crop_w = crop[2];
-    r->crop_h = crop[3];
-    return 0;
-}
-
-/* --shard K/N */
-static int parse_shard(const render_options *o, render_settings *r)
-{
-    char *end, *last = NULL;
-    if (!o->shard) return 0;
-    const unsigned long shard = strtoul(o->shard, &end, 10), n_shards = *end == '/' ? strtoul(end + 1, &last, 10) : 0;
-    if (!last || *last || !isdigit((unsigned char)o->shard[0]) || !isdigit((unsigned char)end[1]) || shard < 1 ||
-        shard > n_shards)
-        return fail(EXIT_USAGE, NULL, "--shard", "`%s` is not K/N with K from 1 to N, such as 3/16", o->shard);
-    if (n_shards > r->spp)
-        return fail(EXIT_USAGE, NULL, "--shard", "%lu shards for %" PRIu32 " samples per pixel; give at most as many",
-                    n_shards, r->spp);
-    r->shard = (uint32_t)shard;
-    r->n_shards = (uint32_t)n_shards;
-    return 0;
-}
-
-static void fill_settings(const render_options *o, size_t i_camera, watch *w, render_settings *r)
-{
-    const bool has_limit = o->time.is_given || o->noise.is_given;
-    r->camera = i_camera;
-    r->spp = o->spp ? (uint32_t)o->spp : has_limit ? UNLIMITED_SPP : DEFAULT_SPP;
-    r->depth = (uint32_t)o->depth;
-    r->n_threads = (uint32_t)o->threads;
-    r->seed = (uint32_t)o->seed;
-    r->strategy = strcmp(o->strategy, "explicit") == 0   ? STRATEGY_EXPLICIT
-                  : strcmp(o->strategy, "implicit") == 0 ? STRATEGY_IMPLICIT
-                                                         : STRATEGY_MIS;
-    r->sampler = strcmp(o->sampler, "random") == 0 ? SAMPLER_RANDOM : SAMPLER_SOBOL;
-    r->isa = o->isa;
-    r->time_limit = o->time.value;
-    r->noise_target = o->noise.value;
-    r->progress = on_progress;
-    r->save = o->checkpoint ? on_save : NULL;
-    r->save_interval = o->checkpoint_interval.value;
-    r->user = w;
 }
 
 static void summarise(const render_options *o, const render_result *result)
@@ -187,12 +86,12 @@ static int finish(const render_options *o, const saver *saved, const render_stat
     int status = write_outputs(o, &p, &result->picture);
     if (!status && !o->quiet) summarise(o, result);
     if (saved->why.status) status = fail_with(FROM_OUTPUT, o->checkpoint, &saved->why);
-    if (is_interrupted && !o->quiet) tell_interruption(o, result);
+    if (is_interrupted() && !o->quiet) tell_interruption(o, result);
     if (o->json) {
-        print_render_json(o, saved->settings, result, warnings, is_interrupted);
+        print_render_json(o, saved->settings, result, warnings, is_interrupted());
         status = finish_stdout(status);
     }
-    return status ? status : is_interrupted ? EXIT_INTERRUPTED : 0;
+    return status ? status : is_interrupted() ? EXIT_INTERRUPTED : 0;
 }
 
 static int render_scene(render_options *o, warning_list *warnings)
@@ -205,22 +104,22 @@ static int render_scene(render_options *o, warning_list *warnings)
     render_result result = {0};
     watch w = {.progress = progress_start(o->quiet), .events = warnings->events};
     int status = prepare_scene(o, warnings, &s, &i_camera);
-    if (!status) {
-        render_settings_defaults(&r);
-        fill_settings(o, i_camera, &w, &r);
-        status = choose_size(o, &s->cameras[i_camera], &r);
-    }
-    if (!status) status = parse_shard(o, &r);
+    if (!status) status = prepare_settings(o, s, i_camera, &r);
     if (!status && o->resume) status = resume_checkpoint(o, s, &r, &state);
     if (!status) {
+        r.progress = on_progress;
+        r.save = o->checkpoint ? on_save : NULL;
+        r.save_interval = o->checkpoint_interval.value;
+        r.user = &w;
         w.saver = (saver){.options = o, .scene = s, .settings = &r, .events = warnings->events};
         events_start(warnings->events, o, &r, &state);
         catch_signals();
-        signal(SIGABRT, explain_abort);
         const facet_status failed = render_continue(s, &r, &state, &result, &why);
-        signal(SIGABRT, SIG_DFL);
         progress_end(&w.progress);
-        status = failed ? fail_with(FROM_INPUT, o->scene_path, &why) : finish(o, &w.saver, &state, &result, warnings);
+        if (failed && state.film.pixels && !o->isa && strcmp(why.place, "isa") == 0)
+            status = fail(EXIT_INPUT, o->resume, NULL, "was made with --isa %s, which this processor lacks", r.isa);
+        else if (failed) status = fail_with(FROM_INPUT, o->scene_path, &why);
+        else status = finish(o, &w.saver, &state, &result, warnings);
     }
     events_done(warnings->events, o, &result, status);
     render_result_destroy(&result);

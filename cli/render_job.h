@@ -48,6 +48,9 @@ void keep_gltf_warning(void *user, const char *text);
  * 0 or the exit status of the error that it printed; *result is the caller's to destroy in both cases. */
 int prepare_scene(const render_options *o, warning_list *warnings, scene **result, size_t *i_camera);
 
+/* All settings but the callbacks.  Returns 0 or the exit status of the error that it printed. */
+int prepare_settings(const render_options *o, const scene *s, size_t i_camera, render_settings *r);
+
 /* Refuses outputs that could not be written at the end: unknown kinds, missing folders, repeated names.  What killed
  * runs have left beside them is removed. */
 int check_outputs(const render_options *o);

@@ -108,6 +108,13 @@ static void one_command_starts_and_goes_on(void **state)
                "--checkpoint", "b.ckpt"),
            0, "facet: note: b.ckpt: going on from 5 samples per pixel");
     assert_same_but_for_time(folder, "b.exr", "b2.exr");
+    program_run run = RUN("info", "b.ckpt");
+    assert_non_null(strstr(run.out, "b.ckpt: checkpoint, 48 x 24 pixels, whole\n"));
+    assert_non_null(strstr(run.out, "  facet:spp              5\n"));
+    expect(run, 0, "");
+    run = RUN("info", "b.ckpt", "--json");
+    assert_non_null(strstr(run.out, "\"facet:samples\": \"5\""));
+    expect(run, 0, "");
 }
 
 /* Waits until stderr has a line of progress: then signals are caught. */
@@ -142,6 +149,18 @@ static void each_signal_saves_a_checkpoint(void **state)
                0, "wrote s2.exr");
         assert_same_pixels(folder, "s.exr", "s2.exr");
     }
+}
+
+static void nohup_keeps_a_render_from_ending_with_its_terminal(void **state)
+{
+    (void)state;
+    unlink(in_folder(folder, "stderr"));
+    const char *const argv[] = {"/usr/bin/nohup", FACET_PROGRAM, "render", "scene.gltf", "--size", "48x24",
+                                "--time",         "0.5",         "-o",     "n.exr",      NULL};
+    const pid_t pid = start_program(folder, NULL, NULL, argv);
+    wait_for_progress();
+    kill(pid, SIGHUP);
+    assert_int_equal(wait_for_program(pid), 0);
 }
 
 static void checkpoints_of_other_renders_are_refused(void **state)
@@ -280,6 +299,7 @@ int main(void)
         cmocka_unit_test(a_resumed_render_writes_the_same_file),
         cmocka_unit_test(one_command_starts_and_goes_on),
         cmocka_unit_test(each_signal_saves_a_checkpoint),
+        cmocka_unit_test(nohup_keeps_a_render_from_ending_with_its_terminal),
         cmocka_unit_test(checkpoints_of_other_renders_are_refused),
         cmocka_unit_test(shards_merge_in_any_order_to_the_whole),
         cmocka_unit_test(merge_refuses_what_does_not_fit),

@@ -142,7 +142,7 @@ static const char textured_scene[] =
     "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[0,0,0],"
     "\"max\":[1,1,0]},{\"bufferView\":1,\"componentType\":5126,\"count\":3,\"type\":\"VEC2\"}]}";
 
-static void write_textured_scene(const char *texture)
+static void write_textured_scene(const char *texture_name)
 {
     static const float values[15] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1};
     unsigned char texels[48];
@@ -152,7 +152,7 @@ static void write_textured_scene(const char *texture)
     FILE *file = fopen(in_folder(folder, "scene.bin"), "wb");
     assert_int_equal(fwrite(values, sizeof values, 1, file), 1);
     fclose(file);
-    assert_int_equal(png_write(in_folder(folder, texture), &picture, NULL, 0, NULL), FACET_OK);
+    assert_int_equal(png_write(in_folder(folder, texture_name), &picture, NULL, 0, NULL), FACET_OK);
 }
 
 #define TEXTURED "$facet render t.gltf --size 64x32 --spp 4 --quiet "

@@ -2,6 +2,7 @@
  * had happened.  10 kills; FACET_KILLS=200 is the long form.  Prints what the kills met.
  * SPDX-License-Identifier: MIT */
 #include <dirent.h>
+#include <math.h>
 #include <setjmp.h>
 #include <signal.h>
 #include <stdarg.h>
@@ -11,6 +12,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <time.h>
 #include <unistd.h>
 /* cmocka needs the headers above */
@@ -39,11 +41,17 @@ static int teardown(void **state)
     return 0;
 }
 
+static double in_seconds(struct timespec t)
+{
+    return (double)t.tv_sec + 1e-9*(double)t.tv_nsec;
+}
+
+/* Since 1970, as file times are. */
 static double now(void)
 {
     struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + 1e-9*(double)t.tv_nsec;
+    clock_gettime(CLOCK_REALTIME, &t);
+    return in_seconds(t);
 }
 
 static void wait_for(double seconds)
@@ -90,13 +98,16 @@ static size_t count_leftovers(void)
 
 typedef struct tally {
     size_t n_kills, n_empty, n_inside_writing, n_late; /* without a checkpoint yet; while it is written; too late */
+    double worst_loss; /* [s], beyond the interval: since the start or the last checkpoint, whichever is later */
 } tally;
 
 /* Kills the render after that time and looks at what it left. */
 static void kill_once(const char *interval, const char *threads, double after, tally *t)
 {
+    double saved = now();
     const pid_t pid = start(interval, threads);
     wait_for(after);
+    const double end = now();
     kill(pid, SIGKILL);
     const int status = wait_for_program(pid);
     if (status == 0) {
@@ -108,14 +119,17 @@ static void kill_once(const char *interval, const char *threads, double after, t
     const size_t n_leftovers = count_leftovers();
     assert_true(n_leftovers <= 1);
     t->n_inside_writing += n_leftovers;
-    if (access(in_folder(folder, "k.ckpt"), F_OK) != 0) {
+    struct stat information;
+    if (stat(in_folder(folder, "k.ckpt"), &information) != 0) {
         t->n_empty++;
-        return;
+    } else {
+        checkpoint c;
+        facet_error why = {0};
+        if (checkpoint_read(in_folder(folder, "k.ckpt"), true, &c, &why)) fail_msg("after a kill: %s", why.text);
+        checkpoint_destroy(&c);
+        saved = fmax(saved, in_seconds(information.st_mtim));
     }
-    checkpoint c;
-    facet_error why = {0};
-    if (checkpoint_read(in_folder(folder, "k.ckpt"), true, &c, &why)) fail_msg("after a kill: %s", why.text);
-    checkpoint_destroy(&c);
+    t->worst_loss = fmax(t->worst_loss, end - saved - strtod(interval, NULL));
 }
 
 static void a_killed_render_resumes_to_the_same_bits(void **state)
@@ -143,8 +157,9 @@ static void a_killed_render_resumes_to_the_same_bits(void **state)
         unlink(in_folder(folder, "killed.exr"));
     }
     assert_true(n == 0 || t.n_kills >= n);
-    print_message("%zu kills: %zu before the first checkpoint, %zu inside the writing of one; %zu came too late\n",
-                  t.n_kills, t.n_empty, t.n_inside_writing, t.n_late);
+    print_message("%zu kills: %zu before the first checkpoint, %zu inside the writing of one; %zu came too late; "
+                  "the most lost beyond the interval: %.2f s\n",
+                  t.n_kills, t.n_empty, t.n_inside_writing, t.n_late, t.worst_loss);
 }
 
 int main(void)

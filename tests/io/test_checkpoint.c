@@ -192,6 +192,62 @@ static void exchanged_and_zeroed_rows_are_refused(void **state)
     free(bytes);
 }
 
+/* zlib's CRC-32, bit by bit. */
+static uint32_t crc_of(uint32_t crc, const char *bytes, size_t size)
+{
+    crc = ~crc;
+    for (size_t i = 0; i < size; i++) {
+        crc ^= (unsigned char)bytes[i];
+        for (int bit = 0; bit < 8; bit++) crc = crc >> 1 ^ (crc & 1 ? 0xedb88320u : 0);
+    }
+    return ~crc;
+}
+
+enum { HEAD_SIZE = 8 + 4*5 + 8*7 + 12*RENDER_MAX_REPORTED, TEXTS_AT = HEAD_SIZE + 4 };
+
+/* Makes the checksums of a head and texts right again. */
+static void forge(char *bytes, size_t text_size)
+{
+    uint32_t crc = crc_of(0, bytes, HEAD_SIZE);
+    memcpy(bytes + HEAD_SIZE, &crc, 4);
+    crc = crc_of(crc, bytes + TEXTS_AT, text_size);
+    memcpy(bytes + TEXTS_AT + text_size, &crc, 4);
+}
+
+/* What a checksum does not stop: sizes that lie, and texts without ends. */
+static void forged_files_are_refused_or_read_within_their_bounds(void **state)
+{
+    (void)state;
+    static const uint32_t sizes[][3] = {/* of texts, width, height */
+                                        {0, 0, 1},          {0, 1, 0},          {0, 65536, 65536}, {0, 65537, 1},
+                                        {0, 1, UINT32_MAX}, {UINT32_MAX, 1, 1}, {1 << 30, 1, 1},   {9, 1, 1}};
+    const char *path = in_folder(folder, "forged.ckpt");
+    size_t size;
+    char *bytes = some_bytes(&size);
+    for (size_t i = 0; i < sizeof sizes/sizeof *sizes; i++) {
+        memcpy(bytes + 12, sizes[i], sizeof sizes[i]);
+        forge(bytes, 0);
+        write_bytes(path, bytes, size);
+        expect_refusal(path, i);
+    }
+    /* A picture of one pixel whose texts are bytes of any kind; its row is wrong, but its head can be read. */
+    static const char *const ends[] = {"", "k", "key=value", "\377\377\377", "a\0b", "\0\0\0"};
+    static const uint32_t lengths[] = {0, 1, 9, 3, 3, 3};
+    for (size_t i = 0; i < sizeof ends/sizeof *ends; i++) {
+        const uint32_t forged[3] = {lengths[i], 1, 1};
+        checkpoint c;
+        memcpy(bytes + 12, forged, sizeof forged);
+        memcpy(bytes + TEXTS_AT, ends[i], lengths[i]);
+        forge(bytes, lengths[i]);
+        write_bytes(path, bytes, TEXTS_AT + lengths[i] + 4 + 68 + 4);
+        assert_int_equal(checkpoint_read(path, false, &c, NULL), FACET_OK);
+        for (size_t k = 0; k < c.n_texts; k++) assert_non_null(checkpoint_text(&c, c.texts[k].key));
+        checkpoint_destroy(&c);
+        expect_refusal(path, i);
+    }
+    free(bytes);
+}
+
 static void each_refusal_has_its_reason(void **state)
 {
     (void)state;
@@ -241,6 +297,7 @@ int main(void)
         cmocka_unit_test(every_flip_of_a_bit_or_byte_is_refused),
         cmocka_unit_test(every_truncation_and_extension_is_refused),
         cmocka_unit_test(exchanged_and_zeroed_rows_are_refused),
+        cmocka_unit_test(forged_files_are_refused_or_read_within_their_bounds),
         cmocka_unit_test(each_refusal_has_its_reason),
         cmocka_unit_test(leftovers_of_killed_writers_are_removed),
     };
