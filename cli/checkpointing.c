@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #include "cli/checkpointing.h"
 
+#include <errno.h>
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
@@ -48,7 +49,7 @@ int resume_checkpoint(render_options *o, const scene *s, render_settings *settin
 {
     checkpoint c;
     facet_error why = {0};
-    if (o->checkpoint && strcmp(o->checkpoint, o->resume) == 0 && access(o->resume, F_OK) != 0) {
+    if (o->checkpoint && strcmp(o->checkpoint, o->resume) == 0 && access(o->resume, F_OK) != 0 && errno == ENOENT) {
         if (!o->quiet) note("%s is not there yet; rendering from the start", o->resume);
         return 0;
     }

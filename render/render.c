@@ -242,24 +242,25 @@ static bool is_save_due(const run *u)
     return u->settings->save && now() - u->saved >= u->settings->save_interval;
 }
 
-/* The least position of the tiles. */
-static uint32_t least_position(const job *j, bool *is_even)
+/* Between which positions the tiles are. */
+static void find_positions(const job *j, uint32_t *least, uint32_t *most)
 {
-    uint32_t least = UINT32_MAX, most = 0;
+    *least = UINT32_MAX;
+    *most = 0;
     for (uint32_t i = 0; i < j->n_tiles; i++) {
         const uint32_t position = tile_position(j, tile_at(j, i));
-        least = position < least ? position : least;
-        most = position > most ? position : most;
+        *least = position < *least ? position : *least;
+        *most = position > *most ? position : *most;
     }
-    *is_even = least == most;
-    return least;
 }
 
 /* Renders the tiles that are behind the target; true when all are there. */
 static bool run_pass(run *u, thread_pool *pool)
 {
-    bool is_even;
-    while (least_position(u->job, &is_even) < u->job->target) {
+    for (;;) {
+        uint32_t least, most;
+        find_positions(u->job, &least, &most);
+        if (least >= u->job->target) return true;
         /* The first pass is finished, so that there is a whole picture; later ones need not be. */
         if (!u->is_wanted && u->job->state->spp > 0) return false;
         thread_pool_start(pool, run_tile, u->job, u->job->n_tiles);
@@ -269,7 +270,6 @@ static bool run_pass(run *u, thread_pool *pool)
         }
         if (is_save_due(u)) save(u);
     }
-    return true;
 }
 
 /* Whether an end is reached between passes. */
@@ -286,12 +286,12 @@ static bool is_over(const run *u)
 static void run_passes(run *u, thread_pool *pool)
 {
     job *j = u->job;
-    bool is_even;
-    const uint32_t least = least_position(j, &is_even);
+    uint32_t least, most;
+    find_positions(j, &least, &most);
     j->state->spp = 0;
     for (uint32_t n; j->state->spp < least && j->state->spp + (n = pass_length(j->state->spp, j->n_share)) <= least;)
         j->state->spp += n;
-    if (is_even && least > 0) u->noise = film_noise(&j->state->film);
+    if (least == most) u->noise = film_noise(&j->state->film);
     while (!is_over(u)) {
         j->target = j->state->spp + pass_length(j->state->spp, j->n_share);
         if (!run_pass(u, pool)) break;

@@ -13,12 +13,12 @@ set -eu
 submit()
 {
     shards=$(sbatch --parsable --job-name=facet --array="1-$1" --requeue --open-mode=append --signal=B:TERM@60 \
-        "$0" "$@")
-    sbatch --parsable --job-name=facet-merge --dependency="afterok:${shards%%;*}" "$0" "$@"
+        "$0" --shard "$@")
+    sbatch --parsable --job-name=facet-merge --dependency="afterok:${shards%%;*}" "$0" --merge "$@"
 }
 
 # Slurm's signal goes to this shell alone, which stays to pass it on and to requeue the job.
-render_shard()
+shard()
 {
     n=$1 scene=$2 out=$3 child='' stopped=''
     shift 3
@@ -47,13 +47,12 @@ merge()
     facet merge "$@" -o "$out"
 }
 
+role=submit
+case ${1:-} in
+--shard | --merge) role=${1#--} && shift ;;
+esac
 if [ "$#" -lt 3 ]; then
     sed -n '2,/^$/s/^# \{0,1\}//p' "$0" >&2
     exit 2
-elif [ -n "${SLURM_ARRAY_TASK_ID:-}" ]; then
-    render_shard "$@"
-elif [ -n "${SLURM_JOB_ID:-}" ]; then
-    merge "$@"
-else
-    submit "$@"
 fi
+"$role" "$@"

@@ -27,6 +27,7 @@ static const char fake_sbatch[] =
     "array= dependency=\n"
     "while :; do\n"
     "    case $1 in\n"
+    "    */*) break;;\n"
     "    --array=*) array=${1#--array=1-};;\n"
     "    --dependency=*) dependency=$1;;\n"
     "    --*) ;;\n"
