@@ -1,4 +1,4 @@
-/* cmd_info.c: `facet info`, what is in a scene or a picture.
+/* cmd_info.c: `facet info`, what is in a scene, a picture or a checkpoint.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdint.h>
@@ -9,6 +9,7 @@
 #include "cli/json_writer.h"
 #include "cli/render_job.h"
 #include "cli/report.h"
+#include "io/checkpoint.h"
 #include "io/gltf.h"
 #include "io/image_file.h"
 
@@ -176,16 +177,21 @@ static void write_scene(json_writer *j, const scene *s, const warning_list *warn
 
 /* ---- The command ------------------------------------------------------------------------------- */
 
+/* Whether the file begins so. */
+static bool has_magic(const char *path, const char *magic)
+{
+    char bytes[8] = {0};
+    FILE *stream = fopen(path, "rb");
+    if (!stream) return false;
+    const size_t n = fread(bytes, 1, strlen(magic), stream);
+    fclose(stream);
+    return n == strlen(magic) && memcmp(bytes, magic, n) == 0;
+}
+
 /* True for glTF by name, for .glb also by its first bytes. */
 static bool is_scene(const char *path)
 {
-    char magic[4] = {0};
-    FILE *stream = fopen(path, "rb");
-    if (stream) {
-        if (fread(magic, 1, 4, stream) != 4) magic[0] = 0;
-        fclose(stream);
-    }
-    return memcmp(magic, "glTF", 4) == 0 || has_extension(path, "gltf") || has_extension(path, "glb");
+    return has_extension(path, "gltf") || has_extension(path, "glb") || has_magic(path, "glTF");
 }
 
 static void start_json(json_writer *j, const char *path)
@@ -232,12 +238,38 @@ static int tell_picture(const char *path, bool json)
     return finish_stdout(0);
 }
 
+static int tell_checkpoint(const char *path, bool json)
+{
+    facet_error why = {0};
+    checkpoint c;
+    if (checkpoint_read(path, true, &c, &why)) return fail_with(FROM_INPUT, path, &why);
+    const film *f = &c.state.film;
+    if (json) {
+        json_writer j;
+        start_json(&j, path);
+        json_put_text(&j, "kind", "checkpoint");
+        json_put_integer(&j, "width", f->width);
+        json_put_integer(&j, "height", f->height);
+        json_put_number(&j, "noise", film_noise(f) >= 0 ? film_noise(f) : NAN);
+        json_put_open(&j, "texts", '{');
+        for (size_t i = 0; i < c.n_texts; i++) json_put_text(&j, c.texts[i].key, c.texts[i].value);
+        json_put_close(&j, '}');
+        json_put_close(&j, '}');
+    } else {
+        printf("%s: checkpoint, %zu x %zu pixels, whole\n", path, f->width, f->height);
+        for (size_t i = 0; i < c.n_texts; i++) printf("  %-22s %s\n", c.texts[i].key, c.texts[i].value);
+    }
+    checkpoint_destroy(&c);
+    return finish_stdout(0);
+}
+
 static int run(int argc, char **argv)
 {
     settings s = {0};
     const char *path;
     const int status = options_parse(&info_command, argc, argv, &s, &path);
     if (status != PARSE_GO) return status;
+    if (has_magic(path, "facetckp")) return tell_checkpoint(path, s.json);
     return is_scene(path) ? tell_scene(path, s.json) : tell_picture(path, s.json);
 }
 
@@ -247,14 +279,15 @@ static const option options[] = {
 
 const command info_command = {
     .name = "info",
-    .summary = "tell what is in a scene or a picture",
+    .summary = "tell what is in a scene, a picture or a checkpoint",
     .operands = "FILE",
     .min_operands = 1,
     .max_operands = 1,
     .description =
         "Scenes (.gltf, .glb): counts, cameras, materials, lights, bounds; what is not supported is warned of.\n"
         "Pictures (EXR, HDR, PNG, JPEG): size, and per channel mean, smallest, largest, NaN and infinite values, as\n"
-        "the file has them (integers scaled to [0,1], not decoded from sRGB).\n",
+        "the file has them (integers scaled to [0,1], not decoded from sRGB).\n"
+        "Checkpoints: how the render was made and how far it is, after all of the file was found whole.\n",
     .examples = "  facet info scene.glb\n  facet info picture.exr --json\n",
     .options = options,
     .n_options = sizeof options/sizeof *options,

@@ -1,41 +1,40 @@
 /* cmd_render.c: `facet render`, a scene to pictures.
  * SPDX-License-Identifier: MIT */
 #include <inttypes.h>
-#include <math.h>
-#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/checkpointing.h"
 #include "cli/commands.h"
+#include "cli/events.h"
+#include "cli/interruption.h"
 #include "cli/progress.h"
+#include "cli/provenance.h"
 #include "cli/render_job.h"
 #include "cli/report.h"
 
-/* Where --time or --noise is to end the render and --spp does not say more. */
-enum { DEFAULT_SPP = 64, UNLIMITED_SPP = 65536, DEFAULT_DEPTH = 8, DEFAULT_HEIGHT = 540, MAX_SIDE = 65536 };
+enum { DEFAULT_DEPTH = 8, DEFAULT_INTERVAL = 60 };
 
-/* Set by the signal handler, read by the progress callback: the one thing that a signal can reach. */
-static volatile sig_atomic_t is_interrupted;
+/* What the callbacks of a render need. */
+typedef struct watch {
+    progress progress;
+    saver saver;
+    event_log *events;
+} watch;
 
-static void interrupt(int signal_number)
+static void on_save(void *user, const render_state *state)
 {
-    is_interrupted = signal_number != 0;
-    signal(SIGINT, SIG_DFL); /* a second signal ends the program at once */
-    signal(SIGTERM, SIG_DFL);
-}
-
-static void catch_signals(void)
-{
-    struct sigaction action = {.sa_handler = interrupt, .sa_flags = SA_RESTART};
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
+    watch *w = user;
+    save_checkpoint(&w->saver, state);
 }
 
 static bool on_progress(void *user, const render_progress *state)
 {
-    progress_show(user, state);
-    return !is_interrupted;
+    watch *w = user;
+    progress_show(&w->progress, state);
+    events_progress(w->events, state);
+    return !is_interrupted();
 }
 
 /* Without -o: the scene's base name in the current folder, as PNG. */
@@ -51,47 +50,6 @@ static int name_output(render_options *o)
     return 0;
 }
 
-/* Size from --size, else from the camera's aspect; crop within it. */
-static int choose_size(const render_options *o, const camera *c, render_settings *r)
-{
-    const double aspect = c->aspect > 0 ? c->aspect : 16.0/9;
-    r->height = o->size[1] ? o->size[1] : DEFAULT_HEIGHT;
-    r->width = o->size[0] ? o->size[0] : (size_t)fmin(fmax(round(DEFAULT_HEIGHT*aspect), 1), MAX_SIDE);
-    if (r->width > MAX_SIDE || r->height > MAX_SIDE || r->width > IMAGE_PIXEL_CAP/r->height)
-        return fail(EXIT_USAGE, NULL, "--size",
-                    "%zux%zu is too large; a picture has at most %d pixels a side and %zu in all", r->width, r->height,
-                    MAX_SIDE, IMAGE_PIXEL_CAP);
-    const size_t *crop = o->crop;
-    if (crop[2] &&
-        (crop[0] >= r->width || crop[2] > r->width - crop[0] || crop[1] >= r->height || crop[3] > r->height - crop[1]))
-        return fail(EXIT_USAGE, NULL, "--crop", "%zu,%zu,%zu,%zu does not lie inside the picture of %zux%zu pixels",
-                    crop[0], crop[1], crop[2], crop[3], r->width, r->height);
-    r->crop_x = crop[0];
-    r->crop_y = crop[1];
-    r->crop_w = crop[2];
-    r->crop_h = crop[3];
-    return 0;
-}
-
-static void fill_settings(const render_options *o, size_t i_camera, progress *p, render_settings *r)
-{
-    const bool has_limit = o->time.is_given || o->noise.is_given;
-    r->camera = i_camera;
-    r->spp = o->spp ? (uint32_t)o->spp : has_limit ? UNLIMITED_SPP : DEFAULT_SPP;
-    r->depth = (uint32_t)o->depth;
-    r->n_threads = (uint32_t)o->threads;
-    r->seed = (uint32_t)o->seed;
-    r->strategy = strcmp(o->strategy, "explicit") == 0   ? STRATEGY_EXPLICIT
-                  : strcmp(o->strategy, "implicit") == 0 ? STRATEGY_IMPLICIT
-                                                         : STRATEGY_MIS;
-    r->sampler = strcmp(o->sampler, "random") == 0 ? SAMPLER_RANDOM : SAMPLER_SOBOL;
-    r->isa = o->isa;
-    r->time_limit = o->time.value;
-    r->noise_target = o->noise.value;
-    r->progress = on_progress;
-    r->user = p;
-}
-
 static void summarise(const render_options *o, const render_result *result)
 {
     char time[32], noise[32] = "";
@@ -102,27 +60,38 @@ static void summarise(const render_options *o, const render_result *result)
                 result->picture.height, result->spp, time, noise);
 }
 
+/* How far an interrupted render came, and how to go on. */
+static void tell_interruption(const render_options *o, const render_result *result)
+{
+    if (!o->checkpoint) note("interrupted after %" PRIu32 " samples per pixel", result->spp);
+    else
+        note("interrupted after %" PRIu32 " samples per pixel; `%s%s%s` goes on", result->spp, o->command_line,
+             o->resume ? "" : " --resume ", o->resume ? "" : o->checkpoint);
+}
+
 /* What comes after rendering: warnings, files, the summary. */
-static int finish(const render_options *o, const scene *s, const render_settings *r, const render_result *result,
+static int finish(const render_options *o, const saver *saved, const render_state *state, const render_result *result,
                   warning_list *warnings)
 {
-    if (result->spp == 0) {
-        note("interrupted before one sample per pixel was done; nothing is written");
-        return EXIT_INTERRUPTED;
-    }
     if (result->n_bad)
         keep_warning(warnings,
                      "%" PRIu64 " samples were not finite and count as black; the first is pixel %" PRIu32 ",%" PRIu32
                      ", sample %" PRIu32,
                      result->n_bad, result->bad[0].x, result->bad[0].y, result->bad[0].sample);
-    int status = write_outputs(o, s, r, result);
+    if (result->n_clamped)
+        keep_warning(warnings, "%" PRIu64 " samples were beyond a radiance of %.2g and count as that",
+                     result->n_clamped, (double)FILM_MOST);
+    provenance p;
+    provenance_collect(&p, o, saved->scene, saved->settings, state);
+    int status = write_outputs(o, &p, &result->picture);
     if (!status && !o->quiet) summarise(o, result);
-    if (is_interrupted && !o->quiet) note("interrupted after %" PRIu32 " samples per pixel", result->spp);
+    if (saved->why.status) status = fail_with(FROM_OUTPUT, o->checkpoint, &saved->why);
+    if (is_interrupted() && !o->quiet) tell_interruption(o, result);
     if (o->json) {
-        print_render_json(o, r, result, warnings, is_interrupted);
+        print_render_json(o, saved->settings, result, warnings, is_interrupted());
         status = finish_stdout(status);
     }
-    return status ? status : is_interrupted ? EXIT_INTERRUPTED : 0;
+    return status ? status : is_interrupted() ? EXIT_INTERRUPTED : 0;
 }
 
 static int render_scene(render_options *o, warning_list *warnings)
@@ -131,23 +100,44 @@ static int render_scene(render_options *o, warning_list *warnings)
     scene *s = NULL;
     size_t i_camera = 0;
     render_settings r;
+    render_state state = {0};
     render_result result = {0};
-    progress p = progress_start(o->quiet);
+    watch w = {.progress = progress_start(o->quiet), .events = warnings->events};
     int status = prepare_scene(o, warnings, &s, &i_camera);
+    if (!status) status = prepare_settings(o, s, i_camera, &r);
+    if (!status && o->resume) status = resume_checkpoint(o, s, &r, &state);
     if (!status) {
-        render_settings_defaults(&r);
-        fill_settings(o, i_camera, &p, &r);
-        status = choose_size(o, &s->cameras[i_camera], &r);
-    }
-    if (!status) {
+        r.progress = on_progress;
+        r.save = o->checkpoint ? on_save : NULL;
+        r.save_interval = o->checkpoint_interval.value;
+        r.user = &w;
+        w.saver = (saver){.options = o, .scene = s, .settings = &r, .events = warnings->events};
+        events_start(warnings->events, o, &r, &state);
         catch_signals();
-        const facet_status failed = render(s, &r, &result, &why);
-        progress_end(&p);
-        status = failed ? fail_with(FROM_INPUT, o->scene_path, &why) : finish(o, s, &r, &result, warnings);
-        if (!failed) render_result_destroy(&result);
+        const facet_status failed = render_continue(s, &r, &state, &result, &why);
+        progress_end(&w.progress);
+        if (failed && state.film.pixels && !o->isa && strcmp(why.place, "isa") == 0)
+            status = fail(EXIT_INPUT, o->resume, NULL, "was made with --isa %s, which this processor lacks", r.isa);
+        else if (failed) status = fail_with(FROM_INPUT, o->scene_path, &why);
+        else status = finish(o, &w.saver, &state, &result, warnings);
     }
+    events_done(warnings->events, o, &result, status);
+    render_result_destroy(&result);
+    render_state_destroy(&state);
     scene_destroy(s);
     return status;
+}
+
+/* Options that need each other, or exclude each other. */
+static int check_checkpointing(const render_options *o)
+{
+    if (o->shard && !o->checkpoint)
+        return fail(EXIT_USAGE, NULL, "--shard", "needs --checkpoint FILE, which is its result");
+    if (o->shard && (o->time.is_given || o->noise.is_given))
+        return fail(EXIT_USAGE, NULL, "--shard", "does not go with --time or --noise; give --spp");
+    if (o->checkpoint_interval.is_given && !o->checkpoint)
+        return fail(EXIT_USAGE, NULL, "--checkpoint-interval", "needs --checkpoint FILE");
+    return o->checkpoint ? check_checkpoint(o->checkpoint) : 0;
 }
 
 /* Options that have no effect on the outputs named are told, not obeyed in silence. */
@@ -162,19 +152,27 @@ static void warn_of_useless(const render_options *o, warning_list *warnings)
 
 static int run(int argc, char **argv)
 {
-    render_options o = {.depth = DEFAULT_DEPTH, .strategy = "mis", .sampler = "sobol", .view = "filmic"};
-    warning_list warnings = {0};
+    render_options o = {.depth = DEFAULT_DEPTH,
+                        .strategy = "mis",
+                        .sampler = "sobol",
+                        .view = "filmic",
+                        .checkpoint_interval = {.value = DEFAULT_INTERVAL}};
+    event_log events = {0};
+    warning_list warnings = {.events = &events};
     int status = options_parse(&render_command, argc, argv, &o, &o.scene_path);
     if (status != PARSE_GO) return status;
     if (o.scene_path && strcmp(o.scene_path, "demo") == 0) o.scene_path = NULL;
     o.command_line = quote_command(argc, argv);
     status = o.command_line ? 0 : fail_memory();
-    if (!status && o.outputs.n == 0) status = name_output(&o);
+    if (!status && o.outputs.n == 0 && !o.shard) status = name_output(&o);
     if (!status) status = check_outputs(&o);
+    if (!status) status = check_checkpointing(&o);
+    if (!status) status = events_open(&events, o.events);
     if (!status) {
         warn_of_useless(&o, &warnings);
         status = render_scene(&o, &warnings);
     }
+    events_close(&events);
     warning_list_destroy(&warnings);
     free(o.default_output);
     free(o.command_line);
@@ -213,11 +211,25 @@ static const option options[] = {
     {"isa", 0, OPTION_CHOICE, AT(isa), NULL,
      "instruction set of the ray tracer, on which the last bits of a picture depend (default avx2 where there is one)",
      0, 0, "sse2|sse4.2|avx|avx2|avx512"},
+    {"checkpoint", 0, OPTION_TEXT, AT(checkpoint), "FILE",
+     "keep what has been rendered in FILE, written now and then, when interrupted and at the end", 0, 0, NULL},
+    {"checkpoint-interval", 0, OPTION_NUMBER, AT(checkpoint_interval), "SECONDS",
+     "time between two checkpoints (default 60)", 0, 1e9, NULL},
+    {"resume", 0, OPTION_TEXT, AT(resume), "FILE",
+     "go on from this checkpoint, to the same bits as without a stop; if it is the file of --checkpoint, too, it need "
+     "not exist yet",
+     0, 0, NULL},
+    {"shard", 0, OPTION_TEXT, AT(shard), "K/N",
+     "render only the K-th of N parts of the samples, as --checkpoint FILE; `facet merge` adds them up", 0, 0, NULL},
     {"exposure", 0, OPTION_NUMBER, AT(exposure), "EV", ".png: brighten by 2^EV (default 0)", -50, 50, NULL},
     {"view", 0, OPTION_CHOICE, AT(view), NULL, ".png: how radiance becomes display values (default filmic)", 0, 0,
      "standard|filmic|agx"},
     {"half", 0, OPTION_FLAG, AT(half), NULL, ".exr: 16-bit floats instead of 32-bit ones", 0, 0, NULL},
     {"quiet", 0, OPTION_FLAG, AT(quiet), NULL, "no progress and no notes; errors and warnings stay", 0, 0, NULL},
+    {"events", 0, OPTION_TEXT, AT(events), "FILE",
+     "append what happens (start, progress, checkpoints, warnings, the end) to FILE as it does, one JSON object a "
+     "line; - is stderr",
+     0, 0, NULL},
     {"json", 0, OPTION_FLAG, AT(json), NULL, "print one JSON object about the render on stdout at the end", 0, 0, NULL},
 };
 
@@ -229,12 +241,15 @@ const command render_command = {
     .description =
         "Renders a glTF 2.0 scene, or the built-in demo scene if none is named.  A scene without a camera is seen\n"
         "whole; one without any light stands in a uniform white environment.\n"
-        "Interrupted (Ctrl-C), it writes what it has and exits with status 130; a second Ctrl-C ends it at once.\n"
+        "Interrupted (Ctrl-C, SIGTERM or SIGHUP), it writes what it has and exits with status 130; a second signal\n"
+        "ends it at once.  With --checkpoint FILE --resume FILE, one command starts a render and goes on with it.\n"
         "Outputs are checked before rendering, written beside and renamed, and carry their provenance (version,\n"
         "command line, scene hash, seed, ...) as metadata.\n",
     .examples = "  facet render\n"
                 "  facet render scene.glb -o scene.exr -o scene.png --spp 256 --size 1280x720\n"
-                "  facet render scene.gltf --env studio.hdr --material body='ggx alpha=.1 ks=.9,.7,.3' --time 60\n",
+                "  facet render scene.gltf --env studio.hdr --material body='ggx alpha=.1 ks=.9,.7,.3' --time 60\n"
+                "  facet render scene.glb --spp 1024 --checkpoint scene.ckpt --resume scene.ckpt\n"
+                "  facet render scene.glb --spp 1024 --shard 3/16 --checkpoint part3.ckpt --resume part3.ckpt\n",
     .options = options,
     .n_options = sizeof options/sizeof *options,
     .run = run,

@@ -8,7 +8,12 @@
 
 json_writer json_put_start(FILE *stream)
 {
-    return (json_writer){stream, 0, false};
+    return (json_writer){.stream = stream};
+}
+
+json_writer json_put_line_start(FILE *stream)
+{
+    return (json_writer){.stream = stream, .is_line = true};
 }
 
 /* Bytes of the valid UTF-8 sequence at text, 0 if there is none (RFC 3629: no surrogates, no overlong
@@ -49,7 +54,8 @@ static void put_string(json_writer *j, const char *text)
 static void begin(json_writer *j, const char *key)
 {
     if (j->needs_comma) fputc(',', j->stream);
-    if (j->depth > 0) fprintf(j->stream, "\n%*s", 2*j->depth, "");
+    if (j->is_line && j->needs_comma) fputc(' ', j->stream);
+    if (j->depth > 0 && !j->is_line) fprintf(j->stream, "\n%*s", 2*j->depth, "");
     if (key) {
         put_string(j, key);
         fputs(": ", j->stream);
@@ -68,7 +74,7 @@ void json_put_open(json_writer *j, const char *key, char bracket)
 void json_put_close(json_writer *j, char bracket)
 {
     j->depth--;
-    if (j->needs_comma) fprintf(j->stream, "\n%*s", 2*j->depth, "");
+    if (j->needs_comma && !j->is_line) fprintf(j->stream, "\n%*s", 2*j->depth, "");
     fputc(bracket, j->stream);
     if (j->depth == 0) fputc('\n', j->stream);
     j->needs_comma = true;

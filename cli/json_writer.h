@@ -17,9 +17,13 @@ typedef struct json_writer {
     FILE *stream;
     int depth;
     bool needs_comma;
+    bool is_line; /* no line ends inside */
 } json_writer;
 
 json_writer json_put_start(FILE *stream);
+
+/* The same for a value on one line. */
+json_writer json_put_line_start(FILE *stream);
 
 /* key is NULL for the members of an array and for the value as a whole. */
 void json_put_open(json_writer *j, const char *key, char bracket); /* '{' or '[' */

@@ -3,7 +3,6 @@
 #include <errno.h>
 #include <inttypes.h>
 #include <math.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -11,8 +10,10 @@
 #include <unistd.h>
 
 #include "cli/json_writer.h"
+#include "cli/provenance.h"
 #include "cli/render_job.h"
 #include "cli/report.h"
+#include "io/file.h"
 #include "io/image_file.h"
 #include "render/view.h"
 
@@ -50,67 +51,21 @@ int check_outputs(const render_options *o)
         if (status) return status;
         if (stat(path, &information) == 0 && !S_ISREG(information.st_mode))
             return fail(EXIT_WORLD, path, NULL, "exists and is not a regular file; name another output");
+        file_remove_leftovers(path);
     }
     return 0;
 }
 
-/* ---- Provenance -------------------------------------------------------------------------------- */
-
-enum { MAX_TEXTS = 24, TEXT_SIZE = 320 };
-
-typedef struct provenance {
-    image_text pairs[MAX_TEXTS];
-    char values[MAX_TEXTS][TEXT_SIZE];
-    size_t n, n_exr; /* the first n_exr go into EXR, where the matrices have attributes of their own */
-    float world_to_camera[16], world_to_ndc[16];
-} provenance;
-
-static void add_text(provenance *p, const char *key, const char *value)
+int check_checkpoint(const char *path)
 {
-    p->pairs[p->n++] = (image_text){key, value};
-}
-
-__attribute__((format(printf, 3, 4))) static void add_printed(provenance *p, const char *key, const char *format, ...)
-{
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(p->values[p->n], TEXT_SIZE, format, arguments);
-    va_end(arguments);
-    add_text(p, key, p->values[p->n]);
-}
-
-static void add_matrix(provenance *p, const char *key, const float m[16])
-{
-    char text[TEXT_SIZE] = "";
-    size_t length = 0;
-    for (int i = 0; i < 16; i++)
-        length += (size_t)snprintf(text + length, sizeof text - length, "%s%.9g", i ? " " : "", (double)m[i]);
-    add_printed(p, key, "%s", text);
-}
-
-static void collect(provenance *p, const render_options *o, const scene *s, const render_settings *settings,
-                    const render_result *result)
-{
-    const camera *c = &s->cameras[settings->camera];
-    p->n = 0;
-    add_text(p, "facet:version", facet_version());
-    add_text(p, "facet:command", o->command_line);
-    add_printed(p, "facet:scene_hash", "%016" PRIx64, s->hash);
-    add_printed(p, "facet:seed", "%" PRIu32, settings->seed);
-    add_printed(p, "facet:spp", "%" PRIu32, result->spp);
-    add_printed(p, "facet:time_seconds", "%.3f", result->seconds);
-    add_text(p, "facet:isa", result->isa);
-    add_text(p, "facet:strategy", o->strategy);
-    add_text(p, "facet:sampler", o->sampler);
-    add_printed(p, "facet:depth", "%" PRIu32, settings->depth);
-    add_text(p, "facet:camera", c->name);
-    add_text(p, "facet:clamped", "0");
-    add_printed(p, "facet:dropped", "%" PRIu64, result->n_bad);
-    camera_matrices(c, settings->width, settings->height, p->world_to_camera, p->world_to_ndc);
-    p->n_exr = p->n;
-    add_printed(p, "facet:view", "%s, exposure %g", o->view, o->exposure.value);
-    add_matrix(p, "facet:world_to_camera", p->world_to_camera);
-    add_matrix(p, "facet:world_to_ndc", p->world_to_ndc);
+    struct stat information;
+    if (has_extension(path, "exr") || has_extension(path, "png"))
+        return fail(EXIT_USAGE, "--checkpoint", NULL, "`%s` is named like a picture; name it FILE.ckpt", path);
+    if (stat(path, &information) == 0 && !S_ISREG(information.st_mode))
+        return fail(EXIT_WORLD, path, NULL, "exists and is not a regular file; name another checkpoint");
+    const int status = check_folder(path);
+    if (!status) file_remove_leftovers(path);
+    return status;
 }
 
 /* ---- After rendering --------------------------------------------------------------------------- */
@@ -127,18 +82,16 @@ static int write_png(const char *path, const render_options *o, const image *pic
     return status ? fail_with(FROM_OUTPUT, path, &why) : 0;
 }
 
-int write_outputs(const render_options *o, const scene *s, const render_settings *settings, const render_result *result)
+int write_outputs(const render_options *o, const provenance *p, const image *picture)
 {
-    provenance p;
     int status = 0;
-    collect(&p, o, s, settings, result);
     for (size_t i = 0; i < o->outputs.n; i++) {
         const char *path = o->outputs.items[i];
         int failed = 0;
         facet_error why = {0};
-        if (has_extension(path, "png")) failed = write_png(path, o, &result->picture, &p);
-        else if (exr_write(path, &result->picture, o->half ? EXR_HALF : EXR_FLOAT, p.pairs, p.n_exr, p.world_to_camera,
-                           p.world_to_ndc, &why))
+        if (has_extension(path, "png")) failed = write_png(path, o, picture, p);
+        else if (exr_write(path, picture, o->half ? EXR_HALF : EXR_FLOAT, p->pairs, p->n_exr, p->world_to_camera,
+                           p->world_to_ndc, &why))
             failed = fail_with(FROM_OUTPUT, path, &why);
         if (failed) status = failed;
     }
@@ -167,6 +120,7 @@ void print_render_json(const render_options *o, const render_settings *settings,
     json_put_integer(&j, "shadow_rays", result->n_shadow_rays);
     json_put_number(&j, "noise", result->noise >= 0 ? result->noise : NAN);
     json_put_integer(&j, "bad_samples", result->n_bad);
+    json_put_integer(&j, "clamped_samples", result->n_clamped);
     json_put_text(&j, "isa", result->isa);
     json_put_open(&j, "warnings", '[');
     for (size_t i = 0; i < warnings->n; i++) json_put_text(&j, NULL, warnings->items[i]);

@@ -17,18 +17,20 @@ typedef struct render_options {
     uint64_t spp, depth, threads, seed;
     size_t size[2], crop[4];
     const char *camera, *env, *strategy, *sampler, *isa, *view;
-    option_number env_scale, time, noise, exposure;
+    const char *checkpoint, *resume, *shard, *events;
+    option_number env_scale, time, noise, exposure, checkpoint_interval;
     bool half, quiet, json;
     /* what the command line as a whole leads to */
     const char *scene_path; /* NULL: the demo scene */
     char *default_output;   /* owned; NULL when outputs were named */
-    char *command_line;     /* owned; quoted for a shell */
+    char *command_line;     /* owned; quoted for a shell; of a resumed render, that of its first run */
 } render_options;
 
 /* Warnings, kept for --json after they were printed. */
 typedef struct warning_list {
     char **items;
     size_t n, n_dropped;
+    struct event_log *events; /* told of each; may be NULL */
 } warning_list;
 
 /* Prints a warning and keeps it; beyond a cap it is only counted. */
@@ -46,12 +48,19 @@ void keep_gltf_warning(void *user, const char *text);
  * 0 or the exit status of the error that it printed; *result is the caller's to destroy in both cases. */
 int prepare_scene(const render_options *o, warning_list *warnings, scene **result, size_t *i_camera);
 
-/* Refuses outputs that could not be written at the end: unknown kinds, missing folders, repeated names. */
+/* All settings but the callbacks.  Returns 0 or the exit status of the error that it printed. */
+int prepare_settings(const render_options *o, const scene *s, size_t i_camera, render_settings *r);
+
+/* Refuses outputs that could not be written at the end: unknown kinds, missing folders, repeated names.  What killed
+ * runs have left beside them is removed. */
 int check_outputs(const render_options *o);
 
+/* The same for a checkpoint. */
+int check_checkpoint(const char *path);
+
 /* Writes all outputs with their provenance.  One that fails does not keep the others from being written. */
-int write_outputs(const render_options *o, const scene *s, const render_settings *settings,
-                  const render_result *result);
+struct provenance;
+int write_outputs(const render_options *o, const struct provenance *p, const image *picture);
 
 /* The render's summary as one JSON object on stdout. */
 void print_render_json(const render_options *o, const render_settings *settings, const render_result *result,

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/commands.h"
+#include "cli/events.h"
 #include "cli/render_job.h"
 #include "cli/report.h"
 #include "cli/suggest.h"
@@ -31,6 +32,7 @@ void keep_warning(warning_list *list, const char *format, ...)
         return;
     }
     warn("%s", text);
+    if (list->events) events_warning(list->events, text);
     list->items[list->n] = strdup(text);
     if (list->items[list->n]) list->n++;
 }
@@ -92,7 +94,7 @@ static int load(const render_options *o, warning_list *warnings, scene **result)
                : 0;
 }
 
-/* --env FILE or R,G,B, and --env-scale. */
+/* --env FILE or R,G,B, and --env-scale.  What options change enters the scene's hash, too. */
 static int set_environment(const render_options *o, scene *s)
 {
     environment *e = &s->environment;
@@ -122,6 +124,8 @@ static int set_environment(const render_options *o, scene *s)
         image_destroy(&e->map);
         e->map = linear;
         for (int k = 0; k < 3; k++) e->scale[k] = 1;
+        scene_hash_bytes(s, &e->map.width, sizeof e->map.width);
+        scene_hash_bytes(s, e->map.pixels, e->map.width*e->map.height*e->map.n_channels*sizeof(float));
     }
     for (int k = 0; k < 3 && o->env_scale.is_given; k++) e->scale[k] *= (float)o->env_scale.value;
     return 0;
@@ -148,6 +152,7 @@ static int set_material(const char *assignment, scene *s)
         s->materials[i].kind = SURFACE_BSDF;
         s->materials[i].bsdf = bsdf;
     }
+    if (!status) scene_hash_bytes(s, assignment, strlen(assignment));
     free(name);
     return status;
 }
@@ -189,5 +194,6 @@ int prepare_scene(const render_options *o, warning_list *warnings, scene **resul
         if (!o->quiet) note("the scene has no light; lit by a uniform white environment of radiance 1 (see --env)");
         for (int k = 0; k < 3; k++) s->environment.scale[k] = o->env_scale.is_given ? (float)o->env_scale.value : 1;
     }
+    if (o->env || o->env_scale.is_given) scene_hash_bytes(s, s->environment.scale, sizeof s->environment.scale);
     return choose_camera(o, s, i_camera);
 }

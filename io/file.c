@@ -4,6 +4,7 @@
  * SPDX-License-Identifier: MIT */
 #include "io/file.h"
 
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <stdbool.h>
@@ -32,8 +33,8 @@ static facet_status system_error(facet_error *why, const char *action, int code)
 
 /* ---- Reading ----------------------------------------------------------------------------------- */
 
-/* Checks that the open file is one that can be read whole, and tells its size. */
-static facet_status check_readable(int descriptor, size_t *size, facet_error *why)
+/* Checks that the open file is a regular one, and tells its size. */
+static facet_status check_readable(int descriptor, uint64_t *size, facet_error *why)
 {
     struct stat info;
     if (fstat(descriptor, &info) != 0) {
@@ -45,11 +46,36 @@ static facet_status check_readable(int descriptor, size_t *size, facet_error *wh
     if (!S_ISREG(info.st_mode)) {
         return facet_error_set(why, FACET_IO, "", "is not a regular file; devices and pipes are not read");
     }
-    if ((unsigned long long)info.st_size > FILE_SIZE_CAP) {
-        return facet_error_set(why, FACET_UNSUPPORTED, "", "has %lld bytes; files of up to %zu bytes are read",
-                               (long long)info.st_size, FILE_SIZE_CAP);
+    *size = (uint64_t)info.st_size;
+    return FACET_OK;
+}
+
+static facet_status open_readable(const char *path, int *descriptor, uint64_t *size, facet_error *why)
+{
+    /* O_NONBLOCK: opening a pipe without a writer would wait for ever. */
+    *descriptor = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
+    if (*descriptor < 0) {
+        return system_error(why, "cannot open", errno);
     }
-    *size = (size_t)info.st_size;
+    const facet_status status = check_readable(*descriptor, size, why);
+    if (status != FACET_OK) {
+        close(*descriptor);
+    }
+    return status;
+}
+
+facet_status file_open(const char *path, FILE **stream, uint64_t *size, facet_error *why)
+{
+    int descriptor;
+    const facet_status status = open_readable(path, &descriptor, size, why);
+    if (status != FACET_OK) {
+        return status;
+    }
+    *stream = fdopen(descriptor, "rb");
+    if (!*stream) {
+        close(descriptor);
+        return facet_error_set(why, FACET_NO_MEMORY, "", "no memory to read a file");
+    }
     return FACET_OK;
 }
 
@@ -77,15 +103,18 @@ facet_status file_read(const char *path, unsigned char **bytes, size_t *size, fa
     if (!path || !bytes || !size) {
         return facet_error_set(why, FACET_BAD_ARGUMENT, "", "file_read needs a path and two results");
     }
-    /* O_NONBLOCK: opening a pipe without a writer would wait for ever. */
-    const int descriptor = open(path, O_RDONLY | O_NONBLOCK | O_NOCTTY | O_CLOEXEC);
-    if (descriptor < 0) {
-        return system_error(why, "cannot open", errno);
+    int descriptor;
+    uint64_t length = 0;
+    facet_status status = open_readable(path, &descriptor, &length, why);
+    if (status != FACET_OK) {
+        return status;
     }
-    size_t n = 0;
     unsigned char *buffer = NULL;
-    facet_status status = check_readable(descriptor, &n, why);
-    if (status == FACET_OK) {
+    const size_t n = (size_t)length;
+    if (length > FILE_SIZE_CAP) {
+        status = facet_error_set(why, FACET_UNSUPPORTED, "", "has %llu bytes; files of up to %zu bytes are read",
+                                 (unsigned long long)length, FILE_SIZE_CAP);
+    } else {
         buffer = malloc(n + 1);
         status = buffer ? read_all(descriptor, buffer, n, why)
                         : facet_error_set(why, FACET_NO_MEMORY, "", "no memory for its %zu bytes", n);
@@ -241,4 +270,23 @@ void file_writer_discard(file_writer *writer)
     free(writer->temporary);
     free(writer->path);
     *writer = (file_writer){0};
+}
+
+void file_remove_leftovers(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    char *folder = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
+    DIR *entries = folder ? opendir(folder) : NULL;
+    const char *name = slash ? slash + 1 : path;
+    const size_t length = strlen(name);
+    for (const struct dirent *entry; entries && (entry = readdir(entries)) != NULL;) {
+        const char *rest = entry->d_name + length;
+        if (strncmp(entry->d_name, name, length) == 0 && strncmp(rest, ".tmp-", 5) == 0) {
+            unlinkat(dirfd(entries), entry->d_name, 0);
+        }
+    }
+    if (entries) {
+        closedir(entries);
+    }
+    free(folder);
 }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include <stddef.h>
+#include <stdint.h>
 #include <stdio.h>
 
 #include "facet/facet.h"
@@ -21,6 +22,9 @@ extern "C" {
 /* The whole file, with one 0 byte after its end that *size does not count.  The caller frees *bytes. */
 facet_status file_read(const char *path, unsigned char **bytes, size_t *size, facet_error *why);
 
+/* A regular file of any size to read from; the caller closes *stream. */
+facet_status file_open(const char *path, FILE **stream, uint64_t *size, facet_error *why);
+
 /* A file being written.  Write to `stream`, then commit (rename over `path`) or discard (remove). */
 typedef struct file_writer {
     FILE *stream;
@@ -32,6 +36,10 @@ facet_status file_writer_open(file_writer *writer, const char *path, facet_error
 /* Flushes, checks every earlier write, fsyncs, closes and renames.  On failure the temporary is removed. */
 facet_status file_writer_commit(file_writer *writer, facet_error *why);
 void file_writer_discard(file_writer *writer);
+
+/* Removes what writers of `path` that were killed have left beside it.  One that is still at work is not harmed beyond
+ * this file: its commit fails. */
+void file_remove_leftovers(const char *path);
 
 #ifdef __cplusplus
 }

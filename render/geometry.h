@@ -85,8 +85,8 @@ static inline float max_abs3(real3 v)
     return kmax(kabs(v.x), kmax(kabs(v.y), kabs(v.z)));
 }
 
-/* The unit normal of a triangle with these edges, counter-clockwise seen from the front.  (0,0,1) for a triangle without
- * area.  Where squares of squares of lengths would leave the range of numbers, the edges are scaled first. */
+/* The unit normal of a triangle with these edges, counter-clockwise seen from the front.  (0,0,1) for a triangle
+ * without area.  Where squares of squares of lengths would leave the range of numbers, the edges are scaled first. */
 static inline real3 normal_of_edges(real3 e1, real3 e2)
 {
     const real3 cross = cross3(e1, e2);

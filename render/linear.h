@@ -1,8 +1,8 @@
 /* linear.h: rays against every triangle and sphere of a small scene in turn.
  *
- * Where there are few of them, testing sixteen rays at once against all costs less than walking a tree with each: with
- * 14, a seventh of Embree's time for rays that have been scattered (docs/performance.md).  The results are the same bits
- * on every instruction set.
+ * Where there are few of them, testing many rays at once against all costs less than walking a tree with each: with
+ * 14, a seventh of Embree's time for rays that have been scattered (docs/performance.md).  The results are the same
+ * bits on every instruction set.
  * SPDX-License-Identifier: MIT */
 #pragma once
 

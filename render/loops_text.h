@@ -44,8 +44,8 @@ static void load_rays(ray_block *b, rays r, size_t first)
     }
 }
 
-/* Six times the volume between an edge and the ray, of opposite sign for the two triangles at the edge, to the last bit:
- * no ray passes between them.  sum: of the edge's ends, seen from the origin. */
+/* Six times the volume between an edge and the ray, of opposite sign for the two triangles at the edge, to the last
+ * bit: no ray passes between them.  sum: of the edge's ends, seen from the origin. */
 static inline float side_of(real3 edge, real3 sum, real3 d)
 {
     return dot3(cross3(edge, sum), d);

@@ -21,12 +21,13 @@ typedef struct worker {
 
 typedef struct job {
     path_context context;
-    film film;
-    uint32_t n_tiles_x;
-    uint32_t first_sample, n_samples; /* of this pass */
+    render_state *state;
+    uint32_t n_tiles_x, n_tiles;
+    uint32_t first_sample, n_share; /* the samples of each pixel that are to be rendered */
+    uint32_t target;                /* this pass ends when each pixel has so many */
     worker *workers;
     uint32_t n_workers;
-    uint32_t n_tiles_done; /* of this pass; atomic */
+    uint64_t n_samples; /* of all pixels; atomic */
 } job;
 
 void render_settings_defaults(render_settings *settings)
@@ -46,17 +47,33 @@ static double now(void)
     return read_clock(CLOCK_MONOTONIC);
 }
 
+static tile tile_at(const job *j, uint32_t piece)
+{
+    const uint32_t x0 = piece%j->n_tiles_x*TILE_SIZE, y0 = piece/j->n_tiles_x*TILE_SIZE;
+    const uint32_t w = (uint32_t)j->state->film.width, h = (uint32_t)j->state->film.height;
+    return (tile){x0, y0, x0 + TILE_SIZE < w ? x0 + TILE_SIZE : w, y0 + TILE_SIZE < h ? y0 + TILE_SIZE : h};
+}
+
+/* The samples that each pixel of a tile has. */
+static uint32_t tile_position(const job *j, tile where)
+{
+    const film *f = &j->state->film;
+    return f->pixels[where.y0*f->width + where.x0].n;
+}
+
 /* A thread_pool_job: all samples of this pass in one tile. */
 static void run_tile(void *user, uint32_t piece, uint32_t thread)
 {
     job *j = user;
-    const uint32_t x0 = piece%j->n_tiles_x*TILE_SIZE, y0 = piece/j->n_tiles_x*TILE_SIZE;
-    const uint32_t w = (uint32_t)j->film.width, h = (uint32_t)j->film.height;
-    const tile where = {x0, y0, x0 + TILE_SIZE < w ? x0 + TILE_SIZE : w, y0 + TILE_SIZE < h ? y0 + TILE_SIZE : h};
+    const tile where = tile_at(j, piece);
+    const uint32_t begin = tile_position(j, where);
     worker *own = &j->workers[thread];
-    for (uint32_t s = 0; s < j->n_samples; s++)
-        path_batch_run(own->batch, &j->context, where, j->first_sample + s, &j->film, &own->counts);
-    __atomic_fetch_add(&j->n_tiles_done, 1, __ATOMIC_RELAXED);
+    for (uint32_t i = begin; i < j->target; i++)
+        path_batch_run(own->batch, &j->context, where, j->first_sample + i, &j->state->film, &own->counts);
+    if (begin < j->target) {
+        const uint64_t n_pixels = (uint64_t)(where.x1 - where.x0)*(where.y1 - where.y0);
+        __atomic_fetch_add(&j->n_samples, n_pixels*(j->target - begin), __ATOMIC_RELAXED);
+    }
 }
 
 static facet_status check_settings(const scene *s, const render_settings *r, facet_error *why)
@@ -70,6 +87,9 @@ static facet_status check_settings(const scene *s, const render_settings *r, fac
                                r->crop_y, r->crop_w, r->crop_h, r->width, r->height);
     if (r->spp == 0 || r->spp > 1u << 24)
         return facet_error_set(why, FACET_BAD_VALUE, "spp", "%u; give 1 to 16777216 samples per pixel", r->spp);
+    if (r->n_shards > r->spp || (r->n_shards && (r->shard == 0 || r->shard > r->n_shards)))
+        return facet_error_set(why, FACET_BAD_VALUE, "shard", "%u/%u; give 1 to N of N, and N up to the %u samples",
+                               r->shard, r->n_shards, r->spp);
     if (r->depth > 4096) return facet_error_set(why, FACET_BAD_VALUE, "depth", "%u; give 0 to 4096 events", r->depth);
     if (r->n_threads > 1024)
         return facet_error_set(why, FACET_BAD_VALUE, "threads", "%u; give 1 to 1024", r->n_threads);
@@ -83,16 +103,43 @@ static void job_destroy(job *j)
     if (j->workers)
         for (uint32_t i = 0; i < j->n_workers; i++) path_batch_destroy(j->workers[i].batch);
     free(j->workers);
-    film_destroy(&j->film);
     light_set_destroy((light_set *)j->context.lights);
     surface_set_destroy((surface_set *)j->context.surfaces);
     tracer_destroy((tracer *)j->context.tracer);
 }
 
-/* Acceleration structure, light tables, film and workspaces. */
-static facet_status job_create(const scene *s, const render_settings *r, uint32_t n_threads, job *j, facet_error *why)
+/* Makes an empty state's film, or takes the positions of a state's tiles. */
+static facet_status adopt_state(job *j, const render_settings *r, facet_error *why)
 {
-    *j = (job){.context = {.scene = s, .camera = &s->cameras[r->camera], .settings = r}};
+    film *f = &j->state->film;
+    if (!f->pixels) {
+        *j->state = (render_state){0};
+        return film_create(r->crop_w, r->crop_h, f);
+    }
+    if (f->width != r->crop_w || f->height != r->crop_h)
+        return facet_error_set(why, FACET_BAD_VALUE, "size", "%zux%zu is not the picture's %zux%zu", f->width,
+                               f->height, r->crop_w, r->crop_h);
+    for (uint32_t i = 0; i < j->n_tiles; i++) {
+        const tile where = tile_at(j, i);
+        const uint32_t position = tile_position(j, where);
+        bool is_even = position <= j->n_share;
+        for (uint32_t y = where.y0; y < where.y1; y++)
+            for (uint32_t x = where.x0; x < where.x1; x++) is_even &= f->pixels[y*f->width + x].n == position;
+        if (!is_even)
+            return facet_error_set(why, FACET_BAD_VALUE, "", "tile %u has not the samples that a render gives it", i);
+        j->n_samples += (uint64_t)position*(where.x1 - where.x0)*(where.y1 - where.y0);
+    }
+    return FACET_OK;
+}
+
+/* Acceleration structure, light tables, film and workspaces. */
+static facet_status job_create(const scene *s, const render_settings *r, uint32_t n_threads, render_state *state,
+                               job *j, facet_error *why)
+{
+    *j = (job){.context = {.scene = s, .camera = &s->cameras[r->camera], .settings = r}, .state = state};
+    j->n_tiles_x = (uint32_t)((r->crop_w + TILE_SIZE - 1)/TILE_SIZE);
+    j->n_tiles = j->n_tiles_x*(uint32_t)((r->crop_h + TILE_SIZE - 1)/TILE_SIZE);
+    render_share(r->spp, r->shard, r->n_shards, &j->first_sample, &j->n_share);
     j->context.sampler = sampler_create(r->sampler, r->seed, r->spp);
     for (size_t i = 0; i < s->n_materials; i++)
         if (s->materials[i].transmission > 0) j->context.has_mixed_surfaces = true;
@@ -107,106 +154,162 @@ static facet_status job_create(const scene *s, const render_settings *r, uint32_
     j->context.surfaces = surfaces;
     j->context.tracer = built;
     if (status == FACET_OK) {
-        status = film_create(r->crop_w, r->crop_h, &j->film);
+        status = adopt_state(j, r, why);
+        state->isa = tracer_isa(built);
         j->workers = calloc(n_threads, sizeof *j->workers);
         if (!j->workers) status = FACET_NO_MEMORY;
         for (; status == FACET_OK && j->n_workers < n_threads; j->n_workers++)
             if (!(j->workers[j->n_workers].batch = path_batch_create(s))) status = FACET_NO_MEMORY;
-        if (status) facet_error_set(why, status, "size", "no memory for a picture of %zux%zu", r->crop_w, r->crop_h);
-        j->n_tiles_x = (uint32_t)((r->crop_w + TILE_SIZE - 1)/TILE_SIZE);
+        if (status == FACET_NO_MEMORY)
+            facet_error_set(why, status, "size", "no memory for a picture of %zux%zu", r->crop_w, r->crop_h);
     }
     if (status) job_destroy(j);
     return status;
 }
 
-/* Passes grow, so that the first pictures come soon and later ones waste no time on waiting for the last tile. */
-static uint32_t pass_length(uint32_t n_done, uint32_t spp)
+/* Passes grow, so that the first pictures come soon and later ones waste no time on waiting for the last tile.  Their
+ * ends depend on nothing but the samples done, so that a continued render looks at its noise where it would have. */
+static uint32_t pass_length(uint32_t n_done, uint32_t n_share)
 {
     const uint32_t length = n_done < 4 ? 1 : n_done/4 < 16 ? n_done/4 : 16;
-    return length < spp - n_done ? length : spp - n_done;
-}
-
-/* What the progress callback is told. */
-static render_progress describe(const job *j, const render_settings *r, uint32_t n_tiles, uint32_t n_done,
-                                double elapsed, double noise)
-{
-    const uint64_t n_pixels = (uint64_t)r->crop_w*r->crop_h;
-    const uint32_t n_tiles_done = __atomic_load_n(&j->n_tiles_done, __ATOMIC_RELAXED);
-    render_progress p = {.samples_total = n_pixels*r->spp, .seconds = elapsed, .noise = noise, .time_left = -1};
-    p.samples_done = n_pixels*n_done + n_pixels*j->n_samples*n_tiles_done/n_tiles;
-    if (p.samples_done && elapsed > 0) {
-        p.samples_per_second = (double)p.samples_done/elapsed;
-        p.time_left = (double)(p.samples_total - p.samples_done)/p.samples_per_second;
-        if (r->time_limit > 0) p.time_left = fmin(p.time_left, fmax(r->time_limit - elapsed, 0));
-        if (r->noise_target > 0 && noise > 0) {
-            const double factor = noise/r->noise_target; /* the error falls with the square root of samples */
-            p.time_left = fmin(p.time_left, fmax(factor*factor - 1, 0)*elapsed);
-        }
-    }
-    return p;
+    return length < n_share - n_done ? length : n_share - n_done;
 }
 
 /* Between two reports of progress [s]. */
 static const double PROGRESS_INTERVAL = 0.1;
 
-/* Runs passes until an end is reached; returns the samples per pixel of whole passes. */
-static uint32_t run_passes(job *j, thread_pool *pool, const render_settings *r, double start, double *noise)
+/* One call's way through the passes. */
+typedef struct run {
+    job *job;
+    const render_settings *settings;
+    double start, start_cpu;     /* of this call [s] */
+    double seconds, cpu_seconds; /* of the calls before */
+    uint64_t n_samples;          /* of the calls before */
+    double told, saved;          /* when progress was last reported and the state last saved */
+    double noise;                /* negative while unknown */
+    bool is_wanted;              /* nobody has asked for the end */
+} run;
+
+/* Asks for an early end if the progress callback does. */
+static void tell(run *u)
 {
-    const uint32_t n_tiles = j->n_tiles_x*(uint32_t)((r->crop_h + TILE_SIZE - 1)/TILE_SIZE);
-    uint32_t n_done = 0;
-    bool is_wanted = true;
-    double told = 0; /* when progress was last reported */
-    *noise = -1;
-    while (is_wanted && n_done < r->spp) {
-        j->first_sample = n_done;
-        j->n_samples = pass_length(n_done, r->spp);
-        j->n_tiles_done = 0;
-        thread_pool_start(pool, run_tile, j, n_tiles);
-        while (!thread_pool_wait(pool, PROGRESS_INTERVAL))
-            if (r->progress) {
-                told = now() - start;
-                const render_progress p = describe(j, r, n_tiles, n_done, told, *noise);
-                if (is_wanted && !r->progress(r->user, &p)) {
-                    is_wanted = false;
-                    /* The first pass is finished, so that there is a whole picture; later ones need not be. */
-                    if (n_done > 0) thread_pool_cancel(pool);
-                }
-            }
-        if (j->n_tiles_done < n_tiles) break; /* a pass cut short: its tiles hold more samples than others */
-        n_done += j->n_samples;
-        *noise = film_noise(&j->film);
-        const double elapsed = now() - start;
-        if (r->progress && elapsed - told >= PROGRESS_INTERVAL) { /* short passes end before the wait does */
-            told = elapsed;
-            j->n_samples = 0;
-            const render_progress p = describe(j, r, n_tiles, n_done, elapsed, *noise);
-            if (!r->progress(r->user, &p)) is_wanted = false;
+    const render_settings *r = u->settings;
+    u->told = now();
+    if (!r->progress) return;
+    const uint64_t n_pixels = (uint64_t)r->crop_w*r->crop_h;
+    const double elapsed = u->told - u->start, total = u->seconds + elapsed;
+    render_progress p = {.samples_done = __atomic_load_n(&u->job->n_samples, __ATOMIC_RELAXED),
+                         .samples_total = n_pixels*u->job->n_share,
+                         .seconds = total,
+                         .noise = u->noise,
+                         .time_left = -1};
+    if (p.samples_done > u->n_samples && elapsed > 0) {
+        p.samples_per_second = (double)(p.samples_done - u->n_samples)/elapsed;
+        p.time_left = (double)(p.samples_total - p.samples_done)/p.samples_per_second;
+        if (r->time_limit > 0) p.time_left = fmin(p.time_left, fmax(r->time_limit - total, 0));
+        if (r->noise_target > 0 && u->noise > 0) {
+            const double factor = u->noise/r->noise_target; /* the error falls with the square root of samples */
+            p.time_left = fmin(p.time_left, fmax(factor*factor - 1, 0)*total);
         }
-        if (r->time_limit > 0 && elapsed >= r->time_limit) is_wanted = false;
-        if (r->noise_target > 0 && *noise >= 0 && n_done >= 16 && *noise <= r->noise_target) is_wanted = false;
     }
-    if (r->progress) {
-        j->n_samples = 0;
-        const render_progress p = describe(j, r, n_tiles, n_done, now() - start, *noise);
-        r->progress(r->user, &p);
-    }
-    return n_done;
+    if (!r->progress(r->user, &p)) u->is_wanted = false;
 }
 
-static void collect_counts(const job *j, render_result *result)
+/* Brings the state's figures up to date; no thread may be at work. */
+static void collect(const run *u)
 {
+    const job *j = u->job;
+    render_state *state = j->state;
+    state->seconds = u->seconds + now() - u->start;
+    state->cpu_seconds = u->cpu_seconds + read_clock(CLOCK_PROCESS_CPUTIME_ID) - u->start_cpu;
     for (uint32_t i = 0; i < j->n_workers; i++) {
-        const path_counts *c = &j->workers[i].counts;
-        result->n_paths += c->n_paths;
-        result->n_rays += c->n_rays;
-        result->n_shadow_rays += c->n_shadow_rays;
-        for (uint32_t k = 0; k < c->n_reported && result->n_bad + k < RENDER_MAX_REPORTED; k++)
-            result->bad[result->n_bad + k] = c->bad[k];
-        result->n_bad += c->n_bad;
+        path_counts *c = &j->workers[i].counts;
+        state->n_paths += c->n_paths;
+        state->n_rays += c->n_rays;
+        state->n_shadow_rays += c->n_shadow_rays;
+        for (uint32_t k = 0; k < c->n_reported && state->n_bad + k < RENDER_MAX_REPORTED; k++)
+            state->bad[state->n_bad + k] = c->bad[k];
+        state->n_bad += c->n_bad;
+        *c = (path_counts){0};
     }
 }
 
-facet_status render(const scene *s, const render_settings *settings, render_result *result, facet_error *why)
+static void save(run *u)
+{
+    if (!u->settings->save) return;
+    collect(u);
+    u->settings->save(u->settings->user, u->job->state);
+    u->saved = now();
+}
+
+static bool is_save_due(const run *u)
+{
+    return u->settings->save && now() - u->saved >= u->settings->save_interval;
+}
+
+/* Between which positions the tiles are. */
+static void find_positions(const job *j, uint32_t *least, uint32_t *most)
+{
+    *least = UINT32_MAX;
+    *most = 0;
+    for (uint32_t i = 0; i < j->n_tiles; i++) {
+        const uint32_t position = tile_position(j, tile_at(j, i));
+        *least = position < *least ? position : *least;
+        *most = position > *most ? position : *most;
+    }
+}
+
+/* Renders the tiles that are behind the target; true when all are there. */
+static bool run_pass(run *u, thread_pool *pool)
+{
+    for (;;) {
+        uint32_t least, most;
+        find_positions(u->job, &least, &most);
+        if (least >= u->job->target) return true;
+        /* The first pass is finished, so that there is a whole picture; later ones need not be. */
+        if (!u->is_wanted && u->job->state->spp > 0) return false;
+        thread_pool_start(pool, run_tile, u->job, u->job->n_tiles);
+        while (!thread_pool_wait(pool, PROGRESS_INTERVAL)) {
+            tell(u);
+            if ((!u->is_wanted && u->job->state->spp > 0) || is_save_due(u)) thread_pool_cancel(pool);
+        }
+        if (is_save_due(u)) save(u);
+    }
+}
+
+/* Whether an end is reached between passes. */
+static bool is_over(const run *u)
+{
+    const render_settings *r = u->settings;
+    const uint32_t spp = u->job->state->spp;
+    if (!u->is_wanted || spp == u->job->n_share) return true;
+    if (r->time_limit > 0 && spp > 0 && u->seconds + now() - u->start >= r->time_limit) return true;
+    return r->noise_target > 0 && u->noise >= 0 && spp >= 16 && u->noise <= r->noise_target;
+}
+
+/* Runs passes until an end is reached. */
+static void run_passes(run *u, thread_pool *pool)
+{
+    job *j = u->job;
+    uint32_t least, most;
+    find_positions(j, &least, &most);
+    j->state->spp = 0;
+    for (uint32_t n; j->state->spp < least && j->state->spp + (n = pass_length(j->state->spp, j->n_share)) <= least;)
+        j->state->spp += n;
+    if (least == most) u->noise = film_noise(&j->state->film);
+    while (!is_over(u)) {
+        j->target = j->state->spp + pass_length(j->state->spp, j->n_share);
+        if (!run_pass(u, pool)) break;
+        j->state->spp = j->target;
+        u->noise = film_noise(&j->state->film);
+        if (now() - u->told >= PROGRESS_INTERVAL) tell(u); /* short passes end before the wait does */
+        if (is_save_due(u)) save(u);
+    }
+    tell(u);
+}
+
+facet_status render_continue(const scene *s, const render_settings *settings, render_state *state,
+                             render_result *result, facet_error *why)
 {
     render_settings r = *settings;
     if (r.crop_w == 0 && r.crop_h == 0) {
@@ -218,7 +321,7 @@ facet_status render(const scene *s, const render_settings *settings, render_resu
     const uint32_t n_threads = r.n_threads ? r.n_threads : thread_pool_default_size();
     const double begin = now();
     job j;
-    status = job_create(s, &r, n_threads, &j, why);
+    status = job_create(s, &r, n_threads, state, &j, why);
     if (status) return status;
     thread_pool *pool = NULL;
     status = thread_pool_create(n_threads, tracer_prepare_thread, &pool);
@@ -226,22 +329,35 @@ facet_status render(const scene *s, const render_settings *settings, render_resu
         job_destroy(&j);
         return facet_error_set(why, status, "threads", "cannot start %u threads", n_threads);
     }
-    const double start = now(), start_cpu = read_clock(CLOCK_PROCESS_CPUTIME_ID);
-    render_result made = {.setup_seconds = start - begin, .isa = tracer_isa(j.context.tracer)};
-    made.spp = run_passes(&j, pool, &r, start, &made.noise);
-    made.seconds = now() - start;
-    made.cpu_seconds = read_clock(CLOCK_PROCESS_CPUTIME_ID) - start_cpu;
-    made.is_complete = made.spp == r.spp;
+    const double start = now();
+    run u = {.job = &j,
+             .settings = &r,
+             .start = start,
+             .start_cpu = read_clock(CLOCK_PROCESS_CPUTIME_ID),
+             .seconds = state->seconds,
+             .cpu_seconds = state->cpu_seconds,
+             .n_samples = j.n_samples,
+             .told = start,
+             .saved = start,
+             .noise = -1,
+             .is_wanted = true};
+    run_passes(&u, pool);
     thread_pool_destroy(pool);
-    collect_counts(&j, &made);
-    status = film_develop(&j.film, &made.picture);
+    save(&u);
+    collect(&u);
+    status = render_develop(state, result, why);
+    if (status == FACET_OK) {
+        result->setup_seconds = start - begin;
+        result->is_complete = state->spp == j.n_share;
+    }
     job_destroy(&j);
-    if (status) return facet_error_set(why, status, "size", "no memory for the finished picture");
-    *result = made;
-    return FACET_OK;
+    return status;
 }
 
-void render_result_destroy(render_result *result)
+facet_status render(const scene *s, const render_settings *settings, render_result *result, facet_error *why)
 {
-    image_destroy(&result->picture);
+    render_state state = {0};
+    const facet_status status = render_continue(s, settings, &state, result, why);
+    render_state_destroy(&state);
+    return status;
 }

@@ -1,7 +1,8 @@
 /* render.h: a scene and settings in, a picture out.
  *
- * The picture is a pure function of scene and settings: the same bits for any number of threads, on one
- * Embree instruction set (settings.isa; render_result.isa tells which was used).
+ * The picture is a pure function of scene and settings: the same bits for any number of threads, however often the
+ * render was stopped and continued, and however its samples were divided into shards, on one Embree instruction set
+ * (settings.isa; render_state.isa tells which was used).
  * SPDX-License-Identifier: MIT */
 #pragma once
 
@@ -10,6 +11,7 @@
 #include <stdint.h>
 
 #include "facet/facet.h"
+#include "render/film.h"
 #include "render/image.h"
 #include "render/scene.h"
 
@@ -32,6 +34,26 @@ typedef struct render_progress {
     double time_left; /* [s], to the nearest of the limits; negative while unknown */
 } render_progress;
 
+#define RENDER_MAX_REPORTED 8
+
+/* A sample whose radiance was not finite: it was counted as black. */
+typedef struct bad_sample {
+    uint32_t x, y, sample;
+} bad_sample;
+
+/* All that a render has done, from which it can be continued.  Everything adds up over parts of a render. */
+typedef struct render_state {
+    struct film
+        film; /* of crop_w x crop_h; its samples are the first of the shard's share, the same number in all of a tile */
+    uint64_t n_paths, n_rays, n_shadow_rays;
+    uint64_t n_bad; /* samples that were NaN or infinite */
+    bad_sample bad[RENDER_MAX_REPORTED];
+    double seconds;     /* rendering alone, wall clock */
+    double cpu_seconds; /* of the whole process while rendering */
+    uint32_t spp;       /* whole passes over the picture, in samples per pixel; tiles may be further */
+    const char *isa;    /* what Embree used; static storage */
+} render_state;
+
 typedef struct render_settings {
     size_t width, height;                  /* of the whole picture [pixel] */
     size_t crop_x, crop_y, crop_w, crop_h; /* the part to render; crop_w == 0: all of it */
@@ -42,23 +64,21 @@ typedef struct render_settings {
     uint32_t seed;
     enum strategy strategy;
     sampler_kind sampler;
-    const char *isa;     /* Embree's instruction set: "sse2", "sse4.2", "avx", "avx2", "avx512";
-                                                NULL: avx2 where there is one, else the best */
-    double time_limit;   /* [s]; 0: none.  Checked between passes over the picture */
+    uint32_t shard, n_shards; /* render the samples of the shard-th of n_shards, from 1; n_shards == 0: all of them */
+    const char *isa;     /* Embree's instruction set: "sse2", "sse4.2", "avx", "avx2", "avx512"; NULL: avx2 where there
+                        is one, else the best, or none at all for a small scene ("any") */
+    double time_limit;   /* [s], with what a continued render took before; 0: none.  Checked between passes */
     double noise_target; /* stop at this estimated relative error; 0: none */
     /* Called on the calling thread about ten times a second; false asks for an early end.  May be NULL. */
     bool (*progress)(void *user, const render_progress *state);
+    /* Called on the calling thread every save_interval [s] and when rendering ends, while no thread works.  May be
+     * NULL. */
+    void (*save)(void *user, const render_state *state);
+    double save_interval;
     void *user;
 } render_settings;
 
 void render_settings_defaults(render_settings *settings);
-
-#define RENDER_MAX_REPORTED 8
-
-/* A sample whose radiance was not finite: it was counted as black. */
-typedef struct bad_sample {
-    uint32_t x, y, sample;
-} bad_sample;
 
 typedef struct render_result {
     image picture;    /* F32 RGB, crop_w x crop_h, linear radiance */
@@ -67,6 +87,7 @@ typedef struct render_result {
     uint64_t n_paths, n_rays, n_shadow_rays;
     uint64_t n_bad; /* samples that were NaN or infinite */
     bad_sample bad[RENDER_MAX_REPORTED];
+    uint64_t n_clamped;   /* samples beyond FILM_MOST */
     double seconds;       /* rendering alone, wall clock */
     double cpu_seconds;   /* of the whole process while rendering */
     double setup_seconds; /* acceleration structure and light tables */
@@ -77,6 +98,21 @@ typedef struct render_result {
 /* Renders.  On success *result holds the picture, which render_result_destroy frees. */
 facet_status render(const scene *s, const render_settings *settings, render_result *result, facet_error *why);
 void render_result_destroy(render_result *result);
+
+/* Renders what is left to do: all, if *state is zero, else what a state of the same scene and settings leaves.  The
+ * state remains the caller's to destroy.  FACET_BAD_VALUE for one that these settings cannot have made. */
+facet_status render_continue(const scene *s, const render_settings *settings, render_state *state,
+                             render_result *result, facet_error *why);
+void render_state_destroy(render_state *state);
+
+/* Adds another shard's state of the same render. */
+void render_state_merge(render_state *state, const render_state *other);
+
+/* What has been rendered, without the figures of a run: setup_seconds and is_complete. */
+facet_status render_develop(const render_state *state, render_result *result, facet_error *why);
+
+/* The samples of each pixel that are a shard's: *n from *first on. */
+void render_share(uint32_t spp, uint32_t shard, uint32_t n_shards, uint32_t *first, uint32_t *n);
 
 /* world_to_camera and world_to_ndc (x and y in [-1,1]) of a camera for a picture of that shape, as row
  * vectors times 4x4 matrices, for the picture's metadata. */

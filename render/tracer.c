@@ -3,6 +3,7 @@
 #include "render/tracer.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "core/error.h"
 #include "render/embree.h"
@@ -20,10 +21,12 @@ facet_status tracer_create(const scene *s, const char *isa, uint32_t n_threads, 
 {
     tracer *t = calloc(1, sizeof *t);
     if (!t) return facet_error_set(why, FACET_NO_MEMORY, "", "no memory for the scene");
-    if (!isa && linear_is_enough(s)) {
+    const bool is_free = !isa || strcmp(isa, "any") == 0;
+    if (is_free && linear_is_enough(s)) {
         linear_fill(s, &t->list);
     } else {
-        const facet_status status = embree_scene_create(s, isa, n_threads, opacity, opacity_user, &t->tree, why);
+        const facet_status status = embree_scene_create(s, is_free ? NULL : isa, n_threads, opacity, opacity_user,
+                                                        &t->tree, why);
         if (status) {
             free(t);
             return status;

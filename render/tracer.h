@@ -30,8 +30,8 @@ typedef struct hit {
 /* The opacity in [0,1] of a triangle at (u,v), for meshes whose material is not opaque. */
 typedef float tracer_opacity(const void *user, uint32_t mesh, uint32_t triangle, float u, float v);
 
-/* isa: see render_settings; with a name Embree traces whatever the size.  The scene must stay until tracer_destroy.
- * Thread safe from then on. */
+/* isa: see render_settings; with the name of an instruction set Embree traces whatever the size.  The scene must stay
+ * until tracer_destroy.  Thread safe from then on. */
 facet_status tracer_create(const scene *s, const char *isa, uint32_t n_threads, tracer_opacity *opacity,
                            const void *opacity_user, tracer **result, facet_error *why);
 void tracer_destroy(tracer *t);
@@ -39,8 +39,9 @@ void tracer_destroy(tracer *t);
 /* Arrays of rays, hits and answers hold whole vectors: room for n rounded up to a multiple of this. */
 enum { TRACER_LANES = 64 };
 
-/* The nearest surface of n rays; none for rays with a coordinate that is not finite or above 1e18.  coherent: they have
- * one origin and neighbours in the array are neighbours in direction.  What a ray meets does not depend on the others. */
+/* The nearest surface of n rays; none for rays with a coordinate that is not finite or above 1e18.  coherent: they
+ * have one origin, and neighbours in the array are neighbours in direction.  What a ray meets does not depend on the
+ * others. */
 void tracer_nearest(const tracer *t, size_t n, rays r, bool is_coherent, hits h);
 
 /* Whether anything lies on each of n rays; true for rays that cannot be traced. */

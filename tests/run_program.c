@@ -3,6 +3,7 @@
 #include "tests/run_program.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -81,6 +82,8 @@ pid_t start_program(const char *folder, const char *input, const char *out, cons
     char path[1200];
     redirect(out ? out : join(folder, "stdout", path, sizeof path), O_WRONLY | O_CREAT | O_TRUNC, STDOUT_FILENO);
     redirect(join(folder, "stderr", path, sizeof path), O_WRONLY | O_CREAT | O_TRUNC, STDERR_FILENO);
+    signal(SIGHUP, SIG_DFL); /* whatever started the tests may ignore these */
+    signal(SIGINT, SIG_DFL);
     if (chdir(folder) != 0) _exit(127);
     execv(argv[0], (char *const *)argv);
     _exit(127);

@@ -20,7 +20,7 @@ import tree
 COMMON = ["-fsyntax-only", "-Wall", "-Wextra", "-Wshadow", "-Werror", "-fopenmp-simd", "-D_POSIX_C_SOURCE=200809L",
           "-D_DEFAULT_SOURCE", "-ffp-contract=off"]
 KERNELS = "core/kernel/"
-PARTS = ("core/*_text.h", "core/kernel/kmath_*.h", "tests/*_text.h", "tests/*_cases.h")
+PARTS = ("core/*_text.h", "render/*_text.h", "core/kernel/kmath_*.h", "tests/*_text.h", "tests/*_cases.h")
 # A kernel's static functions are there for whoever includes it.
 KERNEL_FLAGS = ["-Wno-unused-function"]
 

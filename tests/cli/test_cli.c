@@ -55,8 +55,11 @@ static void no_arguments_print_the_usage_and_fail(void **state)
 static const struct {
     const char *name, *options; /* separated by blanks */
 } helps[] = {
-    {"render", "--output --spp --size --camera --env --env-scale --depth --threads --seed --crop --time --noise "
-               "--material --strategy --sampler --isa --exposure --view --half --quiet --json --help -o -s -t -h"},
+    {"render",
+     "--output --spp --size --camera --env --env-scale --depth --threads --seed --crop --time --noise "
+     "--material --strategy --sampler --isa --checkpoint --checkpoint-interval --resume --shard --exposure --view "
+     "--half --quiet --events --json --help -o -s -t -h"},
+    {"merge", "--output --exposure --view --half --quiet --help -o"},
     {"compare", "--metric --max --exposure --view --diff --json --help"},
     {"eval", "--wi --wo --csv --double --help"},
     {"sample", "--wo --count --seed --double --help -n"},
@@ -157,7 +160,7 @@ static const mistake mistakes[] = {
     {2, "there is no command `zzzzzzzz`; `facet --help`", {"zzzzzzzz"}},
     {2, "there is no command `evl`", {"help", "evl"}},
     {2, "no option `--sp`; did you mean `--spp`?", {"render", "--sp", "4"}},
-    {2, "no option `--resume`; ", {"render", "--resume", "x.ckpt"}},
+    {2, "no option `--zzzzzzzz`; ", {"render", "--zzzzzzzz", "4"}},
     {2, "no option `-q`", {"render", "-q"}},
     {2, "`--spp` needs a value: --spp N", {"render", "--spp"}},
     {2, "`--output` needs a value", {"render", "--output", "--quiet"}},

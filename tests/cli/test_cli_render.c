@@ -18,28 +18,17 @@
 #include <jansson.h>
 
 #include "tests/run_program.h"
+#include "tests/small_scene.h"
 
 static char *folder;
 
 #define RUN(...) run_program(folder, NULL, NULL, (const char *const[]){FACET_PROGRAM, __VA_ARGS__, NULL})
 
-/* A lamp beside a ball, and two cameras: enough for noise, cheap enough for a test. */
-static const char scene_text[] =
-    "{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"FACET_shape\"],\"scene\":0,"
-    "\"scenes\":[{\"nodes\":[0,1,2,3]}],\"cameras\":["
-    "{\"name\":\"front\",\"type\":\"perspective\",\"perspective\":{\"yfov\":0.8,\"znear\":0.1,\"aspectRatio\":2}},"
-    "{\"name\":\"far\",\"type\":\"perspective\",\"perspective\":{\"yfov\":0.4,\"znear\":0.1}}],"
-    "\"materials\":[{\"name\":\"ball\",\"pbrMetallicRoughness\":{\"metallicFactor\":0,\"roughnessFactor\":0.4}},"
-    "{\"name\":\"lamp\",\"emissiveFactor\":[1,1,1]}],\"nodes\":["
-    "{\"camera\":0,\"name\":\"front\",\"translation\":[0,0,5]},{\"camera\":1,\"name\":\"far\",\"translation\":[0,0,9]},"
-    "{\"extensions\":{\"FACET_shape\":{\"sphere\":{\"radius\":1},\"material\":0}}},"
-    "{\"translation\":[2,1,1],\"extensions\":{\"FACET_shape\":{\"sphere\":{\"radius\":0.5},\"material\":1}}}]}";
-
 static int setup(void **state)
 {
     (void)state;
     folder = make_folder();
-    write_text(in_folder(folder, "scene.gltf"), scene_text);
+    write_text(in_folder(folder, "scene.gltf"), small_scene);
     return 0;
 }
 
@@ -273,7 +262,7 @@ static void dark_scenes_without_cameras_are_shown_with_notes(void **state)
     write_text(in_folder(folder, "bare.gltf"),
                "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"extensions\":"
                "{\"FACET_shape\":{\"sphere\":{\"radius\":1}}}}],\"extensionsUsed\":[\"FACET_shape\"]}");
-    program_run run = RUN("render", "bare.gltf", "--size", "8x8", "--spp", "1");
+    program_run run = RUN("render", "bare.gltf", "--size", "8x8", "--spp", "16");
     expect(&run, 0, "facet: note: the scene has no camera;");
     expect(&run, 0, "facet: note: the scene has no light;");
     program_run_free(&run);

@@ -1,8 +1,10 @@
 /* test_film_scene_camera.c: sums of samples, the noise estimate, questions to a scene, and cameras.
  * SPDX-License-Identifier: MIT */
+#include <float.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <string.h>
@@ -28,10 +30,115 @@ static void a_film_develops_means(void **state)
     }
     assert_int_equal(film_develop(&f, &picture), FACET_OK);
     const float *p = picture.pixels;
-    assert_true(p[15] == 50000000.5f && p[16] == 2 && p[17] == 0.1f); /* summed in double */
-    assert_true(p[0] == 1 && p[1] == 0 && p[3] == 0);                 /* a pixel without samples is black */
+    assert_true(p[15] == 50000000.5f && p[16] == 2 && p[17] == 0.1f);
+    assert_true(p[0] == 1 && p[1] == 0 && p[3] == 0); /* a pixel without samples is black */
     image_destroy(&picture);
     film_destroy(&f);
+}
+
+/* A sample: most are ordinary light, the others what a float can hold. */
+static void draw_sample(draws *d, float rgb[3])
+{
+    static const float extremes[] = {0,        -0.f, 1e-45f,  FLT_MIN,   0x1p-52f,  0x1p-53f, 0x1.8p-52f,
+                                     2047.9f,  2048, 0x1p11f, 1e9f,      FILM_MOST, 0x1p51f,  FLT_MAX,
+                                     -FLT_MAX, -1,   -1e6f,   -0x1p-52f, -FILM_MOST};
+    for (int k = 0; k < 3; k++)
+        rgb[k] = draw(d) < .7 ? (float)draw_log(d, 1e-12, 1e12)
+                              : extremes[(size_t)(draw(d)*(double)(sizeof extremes/sizeof *extremes))];
+}
+
+static bool films_are_equal(const film *a, const film *b)
+{
+    return a->n_clamped == b->n_clamped && memcmp(a->pixels, b->pixels, a->width*a->height*sizeof *a->pixels) == 0;
+}
+
+/* Two pixels; the samples dealt in random order to a random number of films, which are then merged in random order. */
+static void sums_depend_on_neither_order_nor_partition(void **state)
+{
+    (void)state;
+    enum { N = 400, MOST_PARTS = 9 };
+    static float samples[N][3];
+    draws d = {5};
+    film whole;
+    assert_int_equal(film_create(2, 1, &whole), FACET_OK);
+    for (size_t i = 0; i < N; i++) {
+        draw_sample(&d, samples[i]);
+        film_add(&whole, i%2, 0, samples[i]);
+    }
+    assert_true(whole.n_clamped > 0 && whole.n_clamped < N);
+    for (int round = 0; round < 200; round++) {
+        film parts[MOST_PARTS];
+        size_t order[N];
+        const size_t n_parts = 1 + (size_t)(draw(&d)*MOST_PARTS);
+        for (size_t i = 0; i < n_parts; i++) assert_int_equal(film_create(2, 1, &parts[i]), FACET_OK);
+        for (size_t i = 0; i < N; i++) { /* Fisher and Yates' shuffle */
+            const size_t k = (size_t)(draw(&d)*(double)(i + 1));
+            order[i] = order[k];
+            order[k] = i;
+        }
+        for (size_t i = 0; i < N; i++)
+            film_add(&parts[(size_t)(draw(&d)*(double)n_parts)], order[i]%2, 0, samples[order[i]]);
+        for (size_t left = n_parts; left > 1; left--) {
+            const size_t from = (size_t)(draw(&d)*(double)left);
+            film *to = &parts[from == left - 1 ? 0 : left - 1];
+            film_merge(to, &parts[from]);
+            film_destroy(&parts[from]);
+            parts[from] = parts[left - 1];
+        }
+        assert_true(films_are_equal(&parts[0], &whole));
+        film_destroy(&parts[0]);
+    }
+    film_destroy(&whole);
+}
+
+/* 2^24 samples of the largest magnitude on either side: the sum of the most that a render can ask for. */
+static void the_longest_sums_do_not_overflow(void **state)
+{
+    (void)state;
+    for (int sign = -1; sign <= 1; sign += 2) {
+        film f, other;
+        image picture;
+        assert_int_equal(film_create(1, 1, &f), FACET_OK);
+        film_add(&f, 0, 0, (const float[3]){(float)sign*FILM_MOST, (float)sign*FLT_MAX, (float)sign});
+        for (int i = 0; i < 24; i++) { /* doubles itself */
+            assert_int_equal(film_create(1, 1, &other), FACET_OK);
+            film_merge(&other, &f);
+            film_merge(&f, &other);
+            film_destroy(&other);
+        }
+        assert_int_equal(f.pixels[0].n, 1 << 24);
+        assert_int_equal(f.n_clamped, 1 << 24);
+        assert_int_equal(film_develop(&f, &picture), FACET_OK);
+        const float *p = picture.pixels;
+        assert_true(p[0] == (float)sign*FILM_MOST && p[1] == p[0] && p[2] == (float)sign);
+        image_destroy(&picture);
+        film_destroy(&f);
+    }
+}
+
+/* The mean of n samples is theirs to half a unit each, and to a float's last bit where they are not minute. */
+static void means_are_those_of_long_doubles(void **state)
+{
+    (void)state;
+    draws d = {8};
+    for (int round = 0; round < 300; round++) {
+        film f;
+        image picture;
+        long double sum = 0;
+        const double scale = draw_log(&d, 1e-16, 1e12);
+        const int n = 1 + (int)(draw(&d)*50);
+        assert_int_equal(film_create(1, 1, &f), FACET_OK);
+        for (int i = 0; i < n; i++) {
+            const float x = (float)(scale*draw_between(&d, -.1, 1));
+            sum += (long double)x;
+            film_add(&f, 0, 0, (const float[3]){x, x, x});
+        }
+        assert_int_equal(film_develop(&f, &picture), FACET_OK);
+        const double expected = (double)(sum/n), got = (double)((const float *)picture.pixels)[0];
+        if (!(fabs(got - expected) <= 0x1p-53 + 0x1p-24*fabs(expected))) fail_msg("%a is not %a", got, expected);
+        image_destroy(&picture);
+        film_destroy(&f);
+    }
 }
 
 /* 64 x 64 pixels of n independent uniform numbers: the error of a pixel's mean is 1/sqrt(12 n), of a mean of 1/2. */
@@ -233,6 +340,9 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_film_develops_means),
+        cmocka_unit_test(sums_depend_on_neither_order_nor_partition),
+        cmocka_unit_test(the_longest_sums_do_not_overflow),
+        cmocka_unit_test(means_are_those_of_long_doubles),
         cmocka_unit_test(noise_is_the_standard_error),
         cmocka_unit_test(a_black_film_has_no_noise_estimate),
         cmocka_unit_test(bounds_take_in_instances_and_spheres),
