@@ -78,7 +78,8 @@ struct path_batch {
     uint32_t chance[3][ROOM];
     vertex_list vertices;
     shadow_list shadows;
-    uint32_t *n_of_material; /* counts, then places, of one more than the scene's materials */
+    uint32_t material[ROOM], order[ROOM]; /* of what the paths met; the paths by it */
+    uint32_t *n_of_material;              /* counts, then places, of one more than the scene's materials */
 };
 
 path_batch *path_batch_create(const scene *s)
@@ -294,10 +295,9 @@ static void gather_emission(path_batch *batch, const path_context *c, const path
 
 /* The paths that met something, ordered by material, so that neighbours are shaded by the same code; returns their
  * number.  The others meet the sky. */
-static uint32_t sort_by_material(path_batch *batch, const path_context *c, const path_list *list, uint32_t order[PATHS])
+static uint32_t sort_by_material(path_batch *batch, const path_context *c, const path_list *list)
 {
     uint32_t *const place = batch->n_of_material;
-    uint32_t kind[PATHS];
     memset(place, 0, (c->scene->n_materials + 1)*sizeof *place);
     for (uint32_t i = 0; i < list->n; i++) {
         if (batch->instance[i] == NO_HIT) {
@@ -305,26 +305,26 @@ static uint32_t sort_by_material(path_batch *batch, const path_context *c, const
             continue;
         }
         const hit h = hit_at(batch, i);
-        kind[i] = (uint32_t)surface_material(c->surfaces, &h);
-        place[kind[i] + 1]++;
+        batch->material[i] = (uint32_t)surface_material(c->surfaces, &h);
+        place[batch->material[i] + 1]++;
     }
     for (size_t k = 1; k <= c->scene->n_materials; k++) place[k] += place[k - 1];
     const uint32_t n = place[c->scene->n_materials];
     for (uint32_t i = 0; i < list->n; i++)
-        if (batch->instance[i] != NO_HIT) order[place[kind[i]]++] = i;
+        if (batch->instance[i] != NO_HIT) batch->order[place[batch->material[i]]++] = i;
     return n;
 }
 
 /* Asks for the memory of hits that come next. */
-static void expect(const path_batch *batch, const path_context *c, const uint32_t *order, uint32_t k, uint32_t n)
+static void expect(const path_batch *batch, const path_context *c, uint32_t k, uint32_t n)
 {
     enum { AHEAD = 8 };
     if (k + 2*AHEAD < n) {
-        const hit h = hit_at(batch, order[k + 2*AHEAD]);
+        const hit h = hit_at(batch, batch->order[k + 2*AHEAD]);
         surface_expect_triangle(c->surfaces, &h);
     }
     if (k + AHEAD < n) {
-        const hit h = hit_at(batch, order[k + AHEAD]);
+        const hit h = hit_at(batch, batch->order[k + AHEAD]);
         surface_expect_vertices(c->surfaces, &h);
     }
 }
@@ -333,16 +333,15 @@ static void expect(const path_batch *batch, const path_context *c, const uint32_
 static void meet_surfaces(path_batch *batch, const path_context *c, const path_list *list, bool is_last)
 {
     vertex_list *v = &batch->vertices;
-    uint32_t order[PATHS];
-    const uint32_t n_hits = sort_by_material(batch, c, list, order);
+    const uint32_t n_hits = sort_by_material(batch, c, list);
     uint32_t n = 0;
     for (uint32_t k = 0; k < n_hits; k++) {
-        const uint32_t i = order[k];
+        const uint32_t i = batch->order[k];
         const ray r = get_ray(&list->ray, i);
         const hit h = hit_at(batch, i);
         const real3 wo = neg3(vector_of(r.direction));
         surface *at = &v->at[n];
-        expect(batch, c, order, k, n_hits);
+        expect(batch, c, k, n_hits);
         surface_find(c->surfaces, &r, &h, wo, fraction(batch->chance[0][i]), &v->own[n], at);
         gather_emission(batch, c, list, i, at);
         if (!at->scatters || is_last) continue;

@@ -1,0 +1,31 @@
+/* bench_scenes.h: the scenes of the renderer's benchmarks.
+ *
+ * The boxes are open to the front and have one square light: `spheres` (12 triangles, a rough metal and a smooth glass
+ * sphere: the scene on which other renderers were measured), `70k` (a displaced ball, 69,324 triangles), `2M` (eight of
+ * them, 2,160,012) and `gtr` (two metals with long tails).  `veach` is Veach's scene of plates and lamps, `helmet` and
+ * `car` are textured models under photographs of skies; these three are read from ../shared/assets.
+ * SPDX-License-Identifier: MIT */
+#pragma once
+
+#include "render/render.h"
+#include "render/scene.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct bench_scene {
+    const char *name;
+    scene *(*make)(void); /* NULL where its file is not there */
+    strategy other;       /* what the usual one can be held against: explicit light cannot find what mirrors show */
+} bench_scene;
+
+enum { BENCH_SCENES = 7 };
+extern const bench_scene bench_scenes[BENCH_SCENES];
+
+/* Ends the program with status 4 and a line that says what failed. */
+void bench_check(facet_status status, const char *what);
+
+#ifdef __cplusplus
+}
+#endif
