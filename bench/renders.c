@@ -231,7 +231,7 @@ int main(int argc, char **argv)
 {
     FILE *csv = NULL;
     const char *only = NULL;
-    effort e = {.rate_spp = 16, .error_spp = 64, .reference_spp = 1024, .z_spp = 64};
+    effort e = {.rate_spp = 16, .error_spp = 64, .reference_spp = 512, .z_spp = 16};
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "--quick") == 0)
             e = (effort){.rate_spp = 2, .error_spp = 8, .reference_spp = 64, .z_spp = 4};
