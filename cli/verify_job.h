@@ -81,7 +81,7 @@ int pictures_prepare(const verify_options *o);
 int pictures_draw(const verdicts *v, const verify_case *c, const verify_subject *subject,
                   const verify_settings *settings);
 
-/* ---- Errors of the library (verify_errors.c) --------------------------------------------------- */
+/* ---- Errors of the library (verify_search.c, verify_truth.c) ----------------------------------- */
 
 /* --search and --truth: the exit status. */
 int verify_search(const verify_options *o);

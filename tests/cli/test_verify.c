@@ -148,6 +148,29 @@ static void materials_are_verified(void **state)
     expect(RUN("--all", "ggx"), 2, "", "takes no material");
     expect(RUN("--check", "furnace"), 2, "", "one material is needed");
     expect(RUN("ggx", "--check", "colour"), 2, "", "colour");
+    expect(RUN("ggx alpha=.3", "--search"), 0, "  albedo ", "");
+}
+
+/* The tables of 25 digits: those of the tree, whose rows are some of the full ones; and if these lie beside the tree,
+ * docs/verification.md shows what they say. */
+static void errors_against_tables_are_those_in_the_documents(void **state)
+{
+    (void)state;
+    expect(RUN("--truth", FACET_SOURCE_DIR "/tests/data/reference"), 0, "| beckmann | Lambda | relative | 51 |", "");
+    expect(RUN("--truth", FACET_SOURCE_DIR "/tests/data/reference", "--json"), 0, "\"term\": \"G1\"", "");
+    expect(RUN("--truth", "absent"), 3, "", "absent: has none of the tables");
+    expect(RUN("--truth", "absent", "ggx"), 2, "", "--truth: takes no material");
+    write_text(in_folder(folder, "d.csv"), "model,alpha_x,alpha_y,cos_theta,phi\n");
+    expect(RUN("--truth", "."), 3, "", "no column `gamma`");
+    write_text(in_folder(folder, "d.csv"), "model,gamma,alpha_x,alpha_y,cos_theta,phi,D\ngxx,0,.1,.1,1,0,1\n");
+    expect(RUN("--truth", "."), 3, "", "d.csv:line 2: ");
+    if (access(FACET_SOURCE_DIR "/../shared/reference/d.csv", R_OK) != 0) return;
+    program_run run = RUN("--truth", FACET_SOURCE_DIR "/../shared/reference");
+    char *document = read_bytes(FACET_SOURCE_DIR "/docs/verification.md", NULL);
+    assert_non_null(document);
+    if (run.status != 0 || !strstr(document, run.out)) fail_msg("docs/verification.md has not:\n%s", run.out);
+    free(document);
+    program_run_free(&run);
 }
 
 static void need_cairo(void)
@@ -236,6 +259,7 @@ int main(void)
         cmocka_unit_test(plugins_that_fail_end_with_a_line),
         cmocka_unit_test(measurements_are_of_their_format),
         cmocka_unit_test(materials_are_verified),
+        cmocka_unit_test(errors_against_tables_are_those_in_the_documents),
         cmocka_unit_test(what_was_verified_is_drawn),
         cmocka_unit_test(measurements_are_drawn),
         cmocka_unit_test(pictures_need_a_folder),

@@ -1,4 +1,4 @@
-/* verify_errors.c: the largest errors of the library's own terms.
+/* verify_search.c: `facet verify --search`, the hunt for the largest errors.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdio.h>
@@ -26,16 +26,21 @@ static int searched_parameters(const facet_material *m, search_parameter paramet
     return n;
 }
 
+static const char *kind_of_error(search_term term)
+{
+    return term == SEARCH_G1 || term == SEARCH_ALBEDO ? "absolute" : "relative";
+}
+
 static void write_worst(json_writer *j, const search_result *r, const search_parameter *parameters, int n,
                         search_term term)
 {
     const double m[3] = {(double)r->m[0], (double)r->m[1], (double)r->m[2]};
     json_put_open(j, NULL, '{');
     json_put_text(j, "term", search_names[term]);
-    json_put_text(j, "error_is", term == SEARCH_G1 ? "absolute" : "relative");
+    json_put_text(j, "error_is", kind_of_error(term));
     json_put_number(j, "error", r->error);
-    json_put_number(j, "single", r->found);
-    json_put_number(j, "double", r->truth);
+    json_put_number(j, "found", r->found);
+    json_put_number(j, "truth", r->truth);
     for (int i = 0; i < n; i++) json_put_number(j, parameters[i].name, r->values[i]);
     json_put_numbers(j, "m", m, 3);
     json_put_close(j, '}');
@@ -50,15 +55,15 @@ int verify_search(const verify_options *o)
     const int n = searched_parameters(&m, parameters);
     json_writer j = json_put_start(stdout);
     if (o->json) json_put_open(&j, NULL, '[');
-    else printf("largest errors of single precision found, of values above 1e-30\n");
+    else printf("largest errors found: of single precision, of values above 1e-30; of the albedo\n");
     for (int term = 0; term < SEARCH_TERMS && stdout_is_good(); term++) {
         const search_result r = search_worst(&m, parameters, n, (search_term)term, SEARCH_EVALUATIONS, o->seed);
         if (o->json) {
             write_worst(&j, &r, parameters, n, (search_term)term);
             continue;
         }
-        printf("  %-7s %-9.3g %s: %.9g, in double %.9g, at", search_names[term], r.error,
-               term == SEARCH_G1 ? "absolute" : "relative", r.found, r.truth);
+        printf("  %-7s %-9.3g %s: %.9g for %.9g, at", search_names[term], r.error, kind_of_error((search_term)term),
+               r.found, r.truth);
         for (int i = 0; i < n; i++) printf(" %s=%.9g", parameters[i].name, r.values[i]);
         printf(" m %.9g,%.9g,%.9g\n", (double)r.m[0], (double)r.m[1], (double)r.m[2]);
     }
@@ -67,10 +72,4 @@ int verify_search(const verify_options *o)
         putchar('\n');
     }
     return finish_stdout(0);
-}
-
-int verify_truth(const verify_options *o)
-{
-    (void)o;
-    return 0;
 }
