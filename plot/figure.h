@@ -18,8 +18,8 @@ typedef struct figure_material {
 
 typedef enum figure_channel { CHANNEL_RED, CHANNEL_GREEN, CHANNEL_BLUE, CHANNEL_LUMINANCE } figure_channel;
 
-/* A variable of a height field or of G1-error, and its range: a parameter of the model, or theta [degrees], cos, tan or cot (of the
- * angle to the normal). */
+/* A variable of a height field or of G1-error, and its range: a parameter of the model, or theta [degrees], cos, tan or
+ * cot (of the angle to the normal). */
 typedef struct figure_variable {
     char name[32];
     double low, high;

@@ -47,7 +47,8 @@ static void choose_window(panels *p)
 static void fill_pixel(panels *p, int pixel, int n_samples)
 {
     const sampler_cells *c = &p->cells;
-    const double x = (pixel%SIDE + 0.5)/SIDE, y = (pixel/SIDE + 0.5)/SIDE;
+    const int row = pixel/SIDE, column = pixel%SIDE;
+    const double x = (column + 0.5)/SIDE, y = (row + 0.5)/SIDE;
     const double cosine = cos((p->y.low + y*(p->y.high - p->y.low))*DEGREE);
     const int cell = sampler_cell_of(c, cosine, (p->x.low + x*(p->x.high - p->x.low))*DEGREE);
     const int band = cell/SAMPLER_SECTORS;

@@ -27,8 +27,8 @@ typedef struct picture_subject {
 facet_status picture_chi_square(const picture *p, const verify_subject *s, const verify_settings *settings,
                                 facet_error *why);
 
-/* The albedo of n variants over the angle of the view, and how far the furnace and the weak furnace of the first one are
- * from 1, with what is allowed. */
+/* The albedo of n variants, 2 at most, over the angle of the view, and how far the furnace and the weak furnace of the
+ * first one are from 1, with what is allowed. */
 facet_status picture_furnace(const picture *p, const picture_subject *variants, size_t n, facet_error *why);
 
 #ifdef __cplusplus

@@ -15,8 +15,8 @@ extern "C" {
 verify_result check_start(const verify_subject *s, verify_check check);
 verify_result check_leave_out(verify_check check, const char *why);
 
-/* Keeps the largest deviation, and fails the check if it is above the tolerance; NaN counts as infinite.  wi: NULL where
- * the check is of a whole view.  Whether it is the largest so far. */
+/* Keeps the largest deviation, and fails the check if it is above the tolerance; NaN counts as infinite.  wi: NULL
+ * where the check is of a whole view.  Whether it is the largest so far. */
 bool check_is_worst(verify_result *r, double deviation, const double wo[3], const double *wi);
 
 double largest_channel(const double f[3]);

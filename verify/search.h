@@ -29,10 +29,11 @@ typedef struct search_result {
     float m[3];
 } search_result;
 
-/* The largest error of a term of `material` with n of its parameters varied, against the double-precision build of the
- * same formulas, which is within 1e-13 of 25-digit truth; of facet_bsdf64_albedo against another quadrature of its own:
- * random points of the domain, many of them near normal and near grazing, and from the worst of them uphill in shrinking
- * steps.  An albedo takes milliseconds, and gets a hundredth of the evaluations.  The same for the same seed. */
+/* The largest error of a term of `material` with n of its parameters varied, against the double-precision build of
+ * the same formulas, which is within 1e-13 of 25-digit truth; for albedos, of facet_bsdf64_albedo against another
+ * quadrature.  Random points of the domain, many of them near normal and near grazing, and from the worst of them
+ * uphill in shrinking steps.  An albedo takes milliseconds, and gets a hundredth of the evaluations.  The same for
+ * the same seed. */
 search_result search_worst(const facet_material *material, const search_parameter *parameters, int n, search_term term,
                            int evaluations, uint64_t seed);
 

@@ -15,8 +15,9 @@
 
 enum { N_DRAWS = 500 };
 
-/* Without a specular term, Disney's diffuse one alone: kd/pi (1 + (FD90 - 1)(1 - cos_i)^5)(1 + (FD90 - 1)(1 - cos_o)^5),
- * FD90 = 1/2 + 2 roughness cos_d^2, cos_d = wi.wm (Burley 2012, section 5.3). */
+/* Without a specular term, Disney's diffuse one alone:
+ * kd/pi (1 + (FD90 - 1)(1 - cos_i)^5)(1 + (FD90 - 1)(1 - cos_o)^5), FD90 = 1/2 + 2 roughness cos_d^2, cos_d = wi.wm
+ * (Burley 2012, section 5.3). */
 static void burley_is_disneys_diffuse_term(void **state)
 {
     (void)state;
