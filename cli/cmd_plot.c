@@ -178,8 +178,8 @@ static const option options[] = {
     {"quantity", 0, OPTION_CHOICE, offsetof(settings, quantity), NULL, "of heightfield (default G1)", 0, 0,
      "D|Lambda|G1|albedo"},
     {"x", 0, OPTION_TEXT, offsetof(settings, x), "NAME=LOW:HIGH",
-     "variable of heightfield: a number among the material's parameters, or theta [degrees], cos, tan or cot of the "
-     "angle to the normal (default alpha=0.1:0.5)",
+     "variable of heightfield and G1-error: a number among the material's parameters, or for heightfield theta "
+     "[degrees], cos, tan or cot of the angle to the normal (default alpha=0.1:0.5)",
      0, 0, NULL},
     {"y", 0, OPTION_TEXT, offsetof(settings, y), "NAME=LOW:HIGH", "the other one (default theta=0:90)", 0, 0, NULL},
     {"minus", 0, OPTION_TEXT, offsetof(settings, minus), "SPEC",
@@ -212,6 +212,7 @@ const command plot_command = {
         "  heightfield    a quantity over two variables, in three dimensions\n"
         "  samples        directions that the sampler draws\n"
         "  convergence    the error of the sampled albedo against the number of samples\n"
+        "  G1-error       how far G1 in single precision is from masking=exact in double, over the variable --x\n"
         "Curves of several materials share a chart; slice, lobe, heightfield and samples give each its own panel.\n",
     .examples = "  facet plot 'ggx alpha=.2' 'beckmann alpha=.2' --of D --log -o D.svg\n"
                 "  facet plot 'ggx alpha=.3' --of fcos --theta 0,45,80 --polar -o lobes.pdf\n"

@@ -98,14 +98,24 @@ int csv_open(csv_reader *reader, const char *path, const char *const *columns, s
 }
 
 /* The field as a finite number. */
-static int read_value(const csv_reader *reader, const char *column, const char *field, double *value)
+static int read_number(const csv_reader *reader, const char *column, const char *field, double *value)
 {
     char *end;
     *value = strtod(field, &end);
     if (end == field || *end) return csv_fail(reader, "`%.40s` in column %s is not a number", field, column);
     if (!isfinite(*value)) return csv_fail(reader, "`%.40s` in column %s is not finite", field, column);
-    if (end - field >= CSV_FIELD_CAP)
-        return csv_fail(reader, "a number in column %s has more than %d characters", column, CSV_FIELD_CAP - 1);
+    return 0;
+}
+
+static int read_value(const csv_reader *reader, size_t i, const char *field, csv_row *row)
+{
+    const char *column = reader->columns[i];
+    const int status = i < reader->n_words ? 0 : read_number(reader, column, field, &row->values[i]);
+    if (status) return status;
+    const size_t length = strlen(field);
+    if (length >= CSV_FIELD_CAP)
+        return csv_fail(reader, "a field in column %s has more than %d characters", column, CSV_FIELD_CAP - 1);
+    memcpy(row->texts[i], field, length + 1);
     return 0;
 }
 
@@ -125,9 +135,7 @@ int csv_read(csv_reader *reader, csv_row *row, bool *is_end)
         const char *field = next_field(&text);
         for (size_t i = 0; i < reader->n_columns; i++) {
             if (reader->position[i] != k) continue;
-            status = read_value(reader, reader->columns[i], field, &row->values[i]);
-            if (status) return status;
-            memcpy(row->texts[i], field, strlen(field) + 1);
+            if ((status = read_value(reader, i, field, row))) return status;
             missing--;
         }
     }

@@ -14,7 +14,7 @@
 extern "C" {
 #endif
 
-enum { CSV_LINE_CAP = 65536, CSV_MAX_COLUMNS = 16, CSV_FIELD_CAP = 48 };
+enum { CSV_LINE_CAP = 65536, CSV_MAX_COLUMNS = 16, CSV_FIELD_CAP = 64 };
 
 typedef struct csv_reader {
     FILE *stream;
@@ -22,6 +22,7 @@ typedef struct csv_reader {
     size_t line;                      /* of the row last read, from 1 */
     size_t n_columns;                 /* wanted */
     const char *const *columns;       /* their names, borrowed */
+    size_t n_words;                   /* of them, the first: may hold words, whose value is 0; set it after csv_open */
     size_t position[CSV_MAX_COLUMNS]; /* of each in the file; (size_t)-1: absent */
     char *text;                       /* the line, CSV_LINE_CAP bytes */
 } csv_reader;

@@ -25,6 +25,7 @@ const figure_kind figure_kinds[FIGURE_KINDS] = {
     {"heightfield", draw_height_field, FIGURE_PANELS | FIGURE_LOG, 480, 440, 0},
     {"samples", draw_samples, FIGURE_PANELS, 420, 440, 45},
     {"convergence", draw_convergence, 0, 800, 600, 45},
+    {"G1-error", draw_G1_error, 0, 800, 600, 0},
 };
 
 /* ---- Pages ------------------------------------------------------------------------------------- */

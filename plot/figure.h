@@ -18,8 +18,8 @@ typedef struct figure_material {
 
 typedef enum figure_channel { CHANNEL_RED, CHANNEL_GREEN, CHANNEL_BLUE, CHANNEL_LUMINANCE } figure_channel;
 
-/* A variable of a height field, and its range: a parameter of the model, or theta [degrees], cos, tan or cot (of the
- * angle to the normal). */
+/* A variable of a height field or of G1-error, and its range: a parameter of the model, or theta [degrees], cos, tan or
+ * cot (of the angle to the normal). */
 typedef struct figure_variable {
     char name[32];
     double low, high;
@@ -63,7 +63,7 @@ typedef struct figure_kind {
     double theta;         /* default [degree] */
 } figure_kind;
 
-enum { FIGURE_KINDS = 15 };
+enum { FIGURE_KINDS = 16 };
 extern const figure_kind figure_kinds[FIGURE_KINDS];
 
 /* The size of the whole by default. */
@@ -77,7 +77,10 @@ facet_status figure_write(const figure_kind *kind, const figure *f, double width
 /* ---- For the kinds ----------------------------------------------------------------------------- */
 
 figure_draw draw_D, draw_Lambda, draw_G1, draw_F, draw_f, draw_fcos, draw_pdf, draw_albedo, draw_theta_h, draw_theta_d,
-    draw_slice, draw_lobe, draw_height_field, draw_samples, draw_convergence;
+    draw_slice, draw_lobe, draw_height_field, draw_samples, draw_convergence, draw_G1_error;
+
+/* The variable's name with its unit, a formula. */
+const char *figure_variable_label(const figure_variable *v);
 
 /* A unit vector; theta may be negative [degrees]. */
 void figure_direction(double theta, double phi, double v[3]);

@@ -46,7 +46,7 @@ static bool is_angle(const figure_variable *v)
     return angle_of(v) != NO_ANGLE;
 }
 
-static const char *label_of(const figure_variable *v)
+const char *figure_variable_label(const figure_variable *v)
 {
     for (int k = 0; k < N_VARIABLES; k++)
         if (strcmp(v->name, variables[k].name) == 0) return variables[k].label;
@@ -55,7 +55,7 @@ static const char *label_of(const figure_variable *v)
 
 static axis axis_of(const figure_variable *v)
 {
-    return (axis){label_of(v), angle_of(v) == THETA ? AXIS_DEGREES : AXIS_LINEAR, v->low, v->high};
+    return (axis){figure_variable_label(v), angle_of(v) == THETA ? AXIS_DEGREES : AXIS_LINEAR, v->low, v->high};
 }
 
 static double theta_of(int angle, double value)

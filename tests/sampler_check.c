@@ -67,7 +67,8 @@ chi_square sampler_check(sampler draw_some, const void *context, const facet_bsd
     const one_by_one one = {draw_some, context, density, wo, seed*1000003, &chunk, data};
     const sampler_subject subject = {&one, draw_one, density_of};
     const double view[3] = {(double)wo[0], (double)wo[1], (double)wo[2]};
-    return sampler_test(&subject, view, facet_bsdf64_lobes(density) & FACET_TRANSMISSION, n).test;
+    sampler_cells cells;
+    return sampler_test(&subject, view, facet_bsdf64_lobes(density) & FACET_TRANSMISSION, n, &cells).test;
 }
 
 void check_samplers(const sampler_case *cases, int n_cases)

@@ -8,22 +8,9 @@
 #include "verify/quadrature.h"
 #include "verify/views.h"
 
-enum {
-    BANDS = 20, /* of one hemisphere */
-    SECTORS = 20,
-    MOST_CELLS = 2*BANDS*SECTORS,
-    PILOT = 20000,
-    PIECES = 32
-};
+enum { BANDS = SAMPLER_BANDS, SECTORS = SAMPLER_SECTORS, PILOT = 20000, PIECES = 32 };
 
 #define PI 3.14159265358979323846
-
-/* Azimuths are counted from that of the mean direction, so that no lobe lies across the cut at half a turn. */
-typedef struct cell_grid {
-    double mean_x, mean_y; /* not both 0 */
-    int n_bands;           /* of the upper hemisphere, or of the lower one and then the upper one */
-    double cosines[2*BANDS + 1], azimuths[2*BANDS][SECTORS + 1];
-} cell_grid;
 
 /* The number of inner borders at or below x. */
 static int interval_of(const double *borders, int n, double x)
@@ -38,15 +25,15 @@ static int interval_of(const double *borders, int n, double x)
 }
 
 /* The azimuth of a direction, in [-pi, pi]. */
-static double azimuth_of(const cell_grid *grid, const double v[3])
+static double azimuth_of(const sampler_cells *cells, const double v[3])
 {
-    return atan2(v[1]*grid->mean_x - v[0]*grid->mean_y, v[0]*grid->mean_x + v[1]*grid->mean_y);
+    return atan2(v[1]*cells->mean_x - v[0]*cells->mean_y, v[0]*cells->mean_x + v[1]*cells->mean_y);
 }
 
-static int cell_of(const cell_grid *grid, const double v[3])
+int sampler_cell_of(const sampler_cells *cells, double cosine, double azimuth)
 {
-    const int band = interval_of(grid->cosines, grid->n_bands, v[2]);
-    return band*SECTORS + interval_of(grid->azimuths[band], SECTORS, azimuth_of(grid, v));
+    const int band = interval_of(cells->cosines, cells->n_bands, cosine);
+    return band*SECTORS + interval_of(cells->azimuths[band], SECTORS, azimuth);
 }
 
 static int compare_doubles(const void *a, const void *b)
@@ -80,27 +67,27 @@ static void place_bands(pilot *p, bool is_upper, double *borders)
     quantiles(p->values, m, is_upper ? 0 : -1, is_upper ? 1 : 0, borders, BANDS);
 }
 
-static void place_borders(cell_grid *grid, const sampler_subject *s, const double wo[3], pilot *p)
+static void place_borders(sampler_cells *cells, const sampler_subject *s, const double wo[3], pilot *p)
 {
     p->n = 0;
-    grid->mean_x = 0;
-    grid->mean_y = 0;
+    cells->mean_x = 0;
+    cells->mean_y = 0;
     for (uint64_t k = 0; k < PILOT; k++)
         if (s->draw(s->context, wo, k, p->v[p->n])) {
-            grid->mean_x += p->v[p->n][0];
-            grid->mean_y += p->v[p->n][1];
+            cells->mean_x += p->v[p->n][0];
+            cells->mean_y += p->v[p->n][1];
             p->z[p->n] = p->v[p->n][2];
             p->n++;
         }
-    if (grid->mean_x == 0 && grid->mean_y == 0) grid->mean_x = 1;
-    for (int i = 0; i < p->n; i++) p->phi[i] = azimuth_of(grid, p->v[i]);
-    if (grid->n_bands > BANDS) place_bands(p, false, grid->cosines);
-    place_bands(p, true, grid->cosines + grid->n_bands - BANDS);
-    for (int band = 0; band < grid->n_bands; band++) {
+    if (cells->mean_x == 0 && cells->mean_y == 0) cells->mean_x = 1;
+    for (int i = 0; i < p->n; i++) p->phi[i] = azimuth_of(cells, p->v[i]);
+    if (cells->n_bands > BANDS) place_bands(p, false, cells->cosines);
+    place_bands(p, true, cells->cosines + cells->n_bands - BANDS);
+    for (int band = 0; band < cells->n_bands; band++) {
         int m = 0;
         for (int i = 0; i < p->n; i++)
-            if (interval_of(grid->cosines, grid->n_bands, p->z[i]) == band) p->values[m++] = p->phi[i];
-        quantiles(p->values, m, -PI, PI, grid->azimuths[band], SECTORS);
+            if (interval_of(cells->cosines, cells->n_bands, p->z[i]) == band) p->values[m++] = p->phi[i];
+        quantiles(p->values, m, -PI, PI, cells->azimuths[band], SECTORS);
     }
 }
 
@@ -136,11 +123,11 @@ static int pieces_of(const double *borders, int n, int k, double *pieces)
 }
 
 /* The density's integral over a cell. */
-static double cell_mass(const cell_grid *grid, int band, int sector, const density_of *of)
+static double cell_mass(const sampler_cells *cells, int band, int sector, const density_of *of)
 {
     double z[PIECES + 1], phi[PIECES + 1], mass = 0;
-    const int rows = pieces_of(grid->cosines + band/BANDS*BANDS, BANDS, band%BANDS, z);
-    const int columns = pieces_of(grid->azimuths[band], SECTORS, sector, phi);
+    const int rows = pieces_of(cells->cosines + band/BANDS*BANDS, BANDS, band%BANDS, z);
+    const int columns = pieces_of(cells->azimuths[band], SECTORS, sector, phi);
     for (int r = 0; r < rows; r++)
         for (int c = 0; c < columns; c++) {
             const double low[2] = {z[r], phi[c]}, high[2] = {z[r + 1], phi[c + 1]};
@@ -150,31 +137,32 @@ static double cell_mass(const cell_grid *grid, int band, int sector, const densi
     return mass;
 }
 
-sampler_result sampler_test(const sampler_subject *s, const double wo[3], bool has_two_sides, int n)
+sampler_result sampler_test(const sampler_subject *s, const double wo[3], bool has_two_sides, int n,
+                            sampler_cells *cells)
 {
-    cell_grid grid;
-    double expected[MOST_CELLS + 1], observed[MOST_CELLS + 1];
-    grid.n_bands = has_two_sides ? 2*BANDS : BANDS;
-    const int n_cells = grid.n_bands*SECTORS;
+    cells->n_bands = has_two_sides ? 2*BANDS : BANDS;
+    const int n_cells = cells->n_bands*SECTORS;
     pilot *p = malloc(sizeof *p);
     if (!p) abort();
-    place_borders(&grid, s, wo, p);
+    place_borders(cells, s, wo, p);
     free(p);
-    const density_of of = {s, {wo[0], wo[1], wo[2]}, atan2(grid.mean_y, grid.mean_x)};
+    const density_of of = {s, {wo[0], wo[1], wo[2]}, atan2(cells->mean_y, cells->mean_x)};
     double lost = 1;
     for (int i = 0; i < n_cells; i++) {
-        const double mass = cell_mass(&grid, i/SECTORS, i%SECTORS, &of);
+        const double mass = cell_mass(cells, i/SECTORS, i%SECTORS, &of);
         lost -= mass;
-        expected[i] = mass*n;
-        observed[i] = 0;
+        cells->expected[i] = mass*n;
+        cells->observed[i] = 0;
     }
-    expected[n_cells] = fmax(lost, 0)*n;
-    observed[n_cells] = 0;
+    cells->expected[n_cells] = fmax(lost, 0)*n;
+    cells->observed[n_cells] = 0;
     for (int k = 0; k < n; k++) {
         double wi[3];
-        observed[s->draw(s->context, wo, PILOT + (uint64_t)k, wi) ? cell_of(&grid, wi) : n_cells]++;
+        const bool is_sample = s->draw(s->context, wo, PILOT + (uint64_t)k, wi);
+        cells->observed[is_sample ? sampler_cell_of(cells, wi[2], azimuth_of(cells, wi)) : n_cells]++;
     }
+    const double unsampled = cells->observed[n_cells];
     /* What the cubature leaves undecided, its tolerance times the cells, is not zero probability. */
-    if (observed[n_cells] > 0 && lost < 2e-8*n_cells) expected[n_cells] = 2e-8*n_cells*n;
-    return (sampler_result){chi_square_test(expected, observed, n_cells + 1), 1 - lost, observed[n_cells]/n};
+    if (unsampled > 0 && lost < 2e-8*n_cells) cells->expected[n_cells] = 2e-8*n_cells*n;
+    return (sampler_result){chi_square_test(cells->expected, cells->observed, n_cells + 1), 1 - lost, unsampled/n};
 }

@@ -29,7 +29,23 @@ typedef struct sampler_result {
     double mass, lost;
 } sampler_result;
 
-sampler_result sampler_test(const sampler_subject *s, const double wo[3], bool has_two_sides, int n);
+enum { SAMPLER_BANDS = 20, SAMPLER_SECTORS = 20, SAMPLER_MOST_CELLS = 2*SAMPLER_BANDS*SAMPLER_SECTORS };
+
+/* Bands of cos_i, each cut into sectors of azimuth [rad], which is counted from that of the mean direction, so that no
+ * lobe lies across the cut at half a turn.  Cell SAMPLER_SECTORS band + sector; the last one is of no sample. */
+typedef struct sampler_cells {
+    double mean_x, mean_y; /* not both 0 */
+    int n_bands;           /* of the upper hemisphere, or of the lower one and then the upper one */
+    double cosines[2*SAMPLER_BANDS + 1], azimuths[2*SAMPLER_BANDS][SAMPLER_SECTORS + 1];
+    double expected[SAMPLER_MOST_CELLS + 1], observed[SAMPLER_MOST_CELLS + 1];
+} sampler_cells;
+
+/* The cell of a direction with this cosine and azimuth. */
+int sampler_cell_of(const sampler_cells *cells, double cosine, double azimuth);
+
+/* Tests n samples, and fills in what was counted. */
+sampler_result sampler_test(const sampler_subject *s, const double wo[3], bool has_two_sides, int n,
+                            sampler_cells *cells);
 
 #ifdef __cplusplus
 }

@@ -9,6 +9,7 @@
 #include <stdint.h>
 
 #include "facet/plugin.h"
+#include "verify/sampler_density.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -69,6 +70,25 @@ int verify_chi_square_tests(const verify_subject *s);
 
 /* Runs one check.  Pure but for the subject's own functions; safe on several threads. */
 verify_result verify_run(const verify_subject *s, verify_check check, const verify_settings *settings);
+
+/* ---- What the checks look at, to be shown ------------------------------------------------------ */
+
+/* The largest deviation that a check allows. */
+double verify_tolerance(const verify_subject *s, verify_check check);
+
+/* The share of light from all directions that is sent to wo, of the channel that is largest in each. */
+double verify_albedo(const verify_subject *s, const double wo[3]);
+
+/* How far an albedo is from what the model claims of it; NaN if it claims nothing. */
+double verify_furnace_deviation(const verify_subject *s, double albedo);
+
+/* Int G1(wo) D(wm)/(4 cos_o) d omega_i, wo above; NaN without D or G1. */
+double verify_weak_furnace(const verify_subject *s, const double wo[3]);
+
+/* The test of this number among verify_chi_square_tests: its view and its cells; and the p below which it fails. */
+sampler_result verify_chi_square(const verify_subject *s, const verify_settings *settings, int number, double wo[3],
+                                 sampler_cells *cells);
+double verify_level(const verify_settings *settings);
 
 /* ---- facet's own materials --------------------------------------------------------------------- */
 

@@ -70,11 +70,11 @@ static void every_figure_draws_the_models_that_have_it(void **state)
 {
     (void)state;
     need_cairo();
-    static const char *const of_facets[] = {"D", "Lambda", "G1", "F", "heightfield"};
+    static const char *const of_facets[] = {"D", "Lambda", "G1", "F", "heightfield", "G1-error"};
     for (size_t k = 0; k < FIGURE_KINDS; k++) {
         const char *name = figure_kinds[k].name;
         bool is_of_facets = false;
-        for (int i = 0; i < 5; i++) is_of_facets |= strcmp(name, of_facets[i]) == 0;
+        for (int i = 0; i < 6; i++) is_of_facets |= strcmp(name, of_facets[i]) == 0;
         expect(is_of_facets
                    ? RUN(MICROFACETS, "--of", name, "-o", "figure.png", "--size", "600x500", "-n", "20")
                    : RUN(MICROFACETS, OTHERS, "--of", name, "-o", "figure.png", "--size", "600x500", "-n", "20"),

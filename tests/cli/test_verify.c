@@ -12,6 +12,11 @@
 /* cmocka needs the headers above */
 #include <cmocka.h>
 
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "io/image_file.h"
+#include "plot/canvas.h"
 #include "tests/run_program.h"
 
 static char *folder;
@@ -143,6 +148,106 @@ static void materials_are_verified(void **state)
     expect(RUN("--all", "ggx"), 2, "", "takes no material");
     expect(RUN("--check", "furnace"), 2, "", "one material is needed");
     expect(RUN("ggx", "--check", "colour"), 2, "", "colour");
+    expect(RUN("ggx alpha=.3", "--search"), 0, "  albedo ", "");
+}
+
+/* The tables of 25 digits: those of the tree, whose rows are some of the full ones; and if these lie beside the tree,
+ * docs/verification.md shows what they say. */
+static void errors_against_tables_are_those_in_the_documents(void **state)
+{
+    (void)state;
+    expect(RUN("--truth", FACET_SOURCE_DIR "/tests/data/reference"), 0, "| beckmann | Lambda | relative | 51 |", "");
+    expect(RUN("--truth", FACET_SOURCE_DIR "/tests/data/reference", "--json"), 0, "\"term\": \"G1\"", "");
+    expect(RUN("--truth", "absent"), 3, "", "absent: has none of the tables");
+    expect(RUN("--truth", "absent", "ggx"), 2, "", "--truth: takes no material");
+    write_text(in_folder(folder, "d.csv"), "model,alpha_x,alpha_y,cos_theta,phi\n");
+    expect(RUN("--truth", "."), 3, "", "no column `gamma`");
+    write_text(in_folder(folder, "d.csv"), "model,gamma,alpha_x,alpha_y,cos_theta,phi,D\ngxx,0,.1,.1,1,0,1\n");
+    expect(RUN("--truth", "."), 3, "", "d.csv:line 2: ");
+    if (access(FACET_SOURCE_DIR "/../shared/reference/d.csv", R_OK) != 0) return;
+    program_run run = RUN("--truth", FACET_SOURCE_DIR "/../shared/reference");
+    char *document = read_bytes(FACET_SOURCE_DIR "/docs/verification.md", NULL);
+    assert_non_null(document);
+    if (run.status != 0 || !strstr(document, run.out)) fail_msg("docs/verification.md has not:\n%s", run.out);
+    free(document);
+    program_run_free(&run);
+}
+
+static void need_cairo(void)
+{
+    canvas *page;
+    if (canvas_create(CANVAS_PNG, 100, 100, 10, &page, NULL) == FACET_UNSUPPORTED) skip();
+    canvas_destroy(page);
+}
+
+/* The picture in the folder of the tests, of this size; the share of its pixels that have colours. */
+static double coloured_share(const char *name, size_t width, size_t height)
+{
+    image picture = {0};
+    facet_error why = {0};
+    if (image_read(in_folder(folder, name), &picture, &why)) fail_msg("%s: %s", name, why.text);
+    assert_true(picture.width == width && picture.height == height && picture.n_channels == 3);
+    const unsigned char *pixels = picture.pixels;
+    size_t n = 0;
+    for (size_t i = 0; i < width*height; i++) n += abs(pixels[3*i] - pixels[3*i + 2]) > 20;
+    image_destroy(&picture);
+    return (double)n/(double)(width*height);
+}
+
+static void what_was_verified_is_drawn(void **state)
+{
+    (void)state;
+    need_cairo();
+    expect(RUN("ggx alpha_x=.1 alpha_y=.4", "--fixed", "--samples", "20000", "--plot", "right"), 0, "all checks hold",
+           "");
+    assert_true(coloured_share("right/1-chi-square.png", 1320, 1065) > 0.3);
+    assert_true(coloured_share("right/1-furnace.png", 1200, 500) > 0.02);
+    /* the same folder again, and only what is asked for */
+    remove(in_folder(folder, "right/1-chi-square.png"));
+    expect(RUN("glass alpha=.3", "--fixed", "--check", "weak-furnace", "--plot", "right"), 0, "all checks hold", "");
+    assert_true(access(in_folder(folder, "right/1-chi-square.png"), F_OK) != 0);
+    expect(RUN("--plugin", plugin("sampler_alpha"), "--samples", "20000", "--plot", "wrong"), 1, "fail", "");
+    assert_true(coloured_share("wrong/3-chi-square.png", 1320, 1065) > 0.3);
+    expect(RUN("--plugin", plugin("crash"), "--plot", "wrong"), 3, "", "was ended by signal 11");
+}
+
+/* A file of the MERL database with f = 1/pi everywhere. */
+static void write_merl(const char *path)
+{
+    static const int sizes[3] = {90, 90, 180};
+    static const double scales[3] = {1/1500.0, 1.15/1500, 1.66/1500};
+    FILE *stream = fopen(path, "wb");
+    assert_non_null(stream);
+    fwrite(sizes, sizeof sizes, 1, stream);
+    for (int channel = 0; channel < 3; channel++)
+        for (int i = 0; i < 90*90*180; i++) {
+            const double value = 0.31830988618379067/scales[channel];
+            fwrite(&value, sizeof value, 1, stream);
+        }
+    assert_int_equal(fclose(stream), 0);
+}
+
+static void measurements_are_drawn(void **state)
+{
+    (void)state;
+    need_cairo();
+    write_merl(in_folder(folder, "white.binary"));
+    expect(RUN("merl file=white.binary", "--plot", "measured"), 0, "the albedo is 1", "");
+    assert_true(coloured_share("measured/1-furnace.png", 1200, 500) > 0.02);
+    assert_true(access(in_folder(folder, "measured/1-chi-square.png"), F_OK) != 0); /* it has no sampler */
+}
+
+static void pictures_need_a_folder(void **state)
+{
+    (void)state;
+    need_cairo();
+    write_text(in_folder(folder, "text"), "no folder\n");
+    expect(RUN("ggx", "--plot", "text"), 4, "", "text: is not a folder");
+    expect(RUN("ggx", "--plot", "absent/folder"), 4, "", "absent/folder: the folder cannot be made: No such file");
+    assert_int_equal(mkdir(in_folder(folder, "closed"), 0500), 0);
+    if (access(in_folder(folder, "closed"), W_OK)) /* not by root */
+        expect(RUN("ggx", "--plot", "closed"), 4, "", "closed: the folder cannot be written to");
+    expect(RUN("ggx", "--search", "--plot", "pictures"), 2, "", "--plot: does not go with --search");
 }
 
 int main(void)
@@ -154,6 +259,10 @@ int main(void)
         cmocka_unit_test(plugins_that_fail_end_with_a_line),
         cmocka_unit_test(measurements_are_of_their_format),
         cmocka_unit_test(materials_are_verified),
+        cmocka_unit_test(errors_against_tables_are_those_in_the_documents),
+        cmocka_unit_test(what_was_verified_is_drawn),
+        cmocka_unit_test(measurements_are_drawn),
+        cmocka_unit_test(pictures_need_a_folder),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

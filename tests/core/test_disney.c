@@ -478,6 +478,23 @@ static void lobes_follow_the_parameters(void **state)
     }
 }
 
+/* The sampler does not know how masking and shadowing are joined; nor does it draw from a coat that is not there. */
+static void densities_are_the_same_for_both_G2(void **state)
+{
+    (void)state;
+    draws random = {5};
+    for (int is_double = 0; is_double < 2; is_double++) {
+        const any_bsdf one = any_bsdf_of("disney metallic=.5 roughness=.3 g2=correlated", is_double);
+        const any_bsdf other = any_bsdf_of("disney metallic=.5 roughness=.3 g2=separable", is_double);
+        for (int k = 0; k < 200; k++) {
+            double wi[3], wo[3];
+            draw_direction(&random, wi);
+            draw_direction(&random, wo);
+            assert_true(any_pdf(&one, wi, wo) == any_pdf(&other, wi, wo));
+        }
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -489,6 +506,7 @@ int main(void)
         cmocka_unit_test(a_bare_metal_is_one_specular_lobe),
         cmocka_unit_test(no_lobe_is_starved),
         cmocka_unit_test(lobes_follow_the_parameters),
+        cmocka_unit_test(densities_are_the_same_for_both_G2),
     };
     return cmocka_run_group_tests_name("disney", tests, NULL, NULL);
 }
