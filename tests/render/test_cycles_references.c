@@ -204,7 +204,7 @@ static void veach_mis(void **state)
     compare(&(comparison){.scene = "scenes/veach_mis/veach_mis.glb",
                           .reference = "scenes/veach_mis/veach_mis.ref_cycles341_768spp.exr",
                           .shrink = 1,
-                          .spp = 48,
+                          .spp = 64,
                           .limit = 2,
                           .bound = 0.01,
                           .error_cap = 0.006});
