@@ -18,6 +18,7 @@
 #include <string.h>
 #include <time.h>
 
+#include "bench/build_scene.h"
 #include "render/geometry.h"
 #include "render/render.h"
 #include "render/scene.h"
@@ -85,20 +86,6 @@ void __wrap_tracer_blocked(const tracer *t, size_t n, rays r, uint32_t *is_block
 
 /* ---- scenes ----------------------------------------------------------------------------------- */
 
-static void check(facet_status status, const char *what)
-{
-    if (status == FACET_OK) return;
-    fprintf(stderr, "renders: %s: %s\n", what, facet_status_string(status));
-    exit(4);
-}
-
-static void *allocate(size_t n, size_t size)
-{
-    void *p = calloc(n, size);
-    if (!p) check(FACET_NO_MEMORY, "scene");
-    return p;
-}
-
 static void log_create(ray_log *log)
 {
     for (int k = 0; k < 8; k++) log->fields[k] = allocate(MOST_RECORDED, sizeof(float));
@@ -111,40 +98,6 @@ static void log_destroy(ray_log *log)
     for (int k = 0; k < 8; k++) free(log->fields[k]);
     free(log->seeds);
     free(log->groups);
-}
-
-static size_t add_material(scene *s, const char *spec, float emission)
-{
-    material m;
-    facet_material described;
-    facet_error why = {.text = ""};
-    check(material_default(spec, &m), spec);
-    check(facet_material_parse(spec, &described, &why), why.text);
-    check(facet_bsdf_prepare(&described, &m.bsdf, &why), why.text);
-    m.kind = SURFACE_BSDF;
-    for (int k = 0; k < 3; k++) m.emission[k] = emission;
-    size_t index;
-    check(scene_add_material(s, &m, &index), spec);
-    return index;
-}
-
-static void add_mesh(scene *s, mesh *m)
-{
-    instance in = {.to_world = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-    check(scene_add_mesh(s, m, &in.mesh), "mesh");
-    check(scene_add_instance(s, &in, NULL), "instance");
-}
-
-/* Two triangles over four corners in order. */
-static void add_quad(scene *s, size_t material_index, const float corners[4][3])
-{
-    mesh m = {.n_vertices = 4, .n_triangles = 2, .material = material_index};
-    m.positions = allocate(4, sizeof *m.positions);
-    m.triangles = allocate(2, sizeof *m.triangles);
-    memcpy(m.positions, corners, 4*sizeof *m.positions);
-    const uint32_t triangles[2][3] = {{0, 1, 2}, {0, 2, 3}};
-    memcpy(m.triangles, triangles, sizeof triangles);
-    add_mesh(s, &m);
 }
 
 /* Box x in [-1,1], y in [0,2], z in [-1,1], front open, and a light of 0.5 x 0.5 a millimetre under its ceiling. */
