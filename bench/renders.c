@@ -20,6 +20,7 @@
 #include <string.h>
 
 #include "bench/parts/bench_scenes.h"
+#include "bench/parts/build_scene.h"
 #include "bench/parts/ray_recorder.h"
 #include "render/render.h"
 #include "render/surface.h"
@@ -56,8 +57,8 @@ static render_result run(const scene *s, uint32_t spp, uint32_t n_threads, uint3
     settings.strategy = how;
     render_result result;
     facet_error why = {.text = ""};
-    bench_check(render(s, &settings, &result, &why), why.text);
-    if (result.n_bad) bench_check(FACET_BAD_VALUE, "a sample was not finite");
+    check(render(s, &settings, &result, &why), why.text);
+    if (result.n_bad) check(FACET_BAD_VALUE, "a sample was not finite");
     return result;
 }
 
@@ -91,7 +92,7 @@ static rates measure_rates(const scene *s, uint32_t spp)
     recorder_stop();
     tracer *alone;
     facet_error why = {.text = ""};
-    bench_check(tracer_create(s, NULL, 1, surface_opacity, s, &alone, &why), why.text);
+    check(tracer_create(s, NULL, 1, surface_opacity, s, &alone, &why), why.text);
     tracer_prepare_thread();
     double closest[RUNS], shadow[RUNS];
     for (int i = 0; i < RUNS; i++) {
@@ -231,7 +232,7 @@ int main(int argc, char **argv)
 {
     FILE *csv = NULL;
     const char *only = NULL;
-    effort e = {.rate_spp = 16, .error_spp = 64, .reference_spp = 512, .z_spp = 16};
+    effort e = {.rate_spp = 16, .error_spp = 64, .reference_spp = 256, .z_spp = 16};
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "--quick") == 0)
             e = (effort){.rate_spp = 2, .error_spp = 8, .reference_spp = 64, .z_spp = 4};

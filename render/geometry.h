@@ -79,6 +79,16 @@ static inline frame frame_around(real3 n, real3 tangent, float handedness)
     return (frame){.t = unit, .b = scale3(handedness, cross3(n, unit)), .n = n};
 }
 
+static inline real3 min3(real3 a, real3 b)
+{
+    return make3(kmin(a.x, b.x), kmin(a.y, b.y), kmin(a.z, b.z));
+}
+
+static inline real3 max3(real3 a, real3 b)
+{
+    return make3(kmax(a.x, b.x), kmax(a.y, b.y), kmax(a.z, b.z));
+}
+
 /* The largest of |x|, |y|, |z|. */
 static inline float max_abs3(real3 v)
 {

@@ -9,6 +9,7 @@
 #include <stdlib.h>
 
 #include "core/error.h"
+#include "render/light_tree.h"
 #include "render/sampler.h"
 
 typedef enum emitter_kind { EMITTER_TRIANGLE, EMITTER_SPHERE, EMITTER_PUNCTUAL, EMITTER_SKY } emitter_kind;
@@ -24,14 +25,16 @@ typedef struct emitter {
     real3 center;               /* ... of its corners */
     real3 normal;               /* triangle, unit, on the front side */
     float offset;               /* how far shadow rays stop from the surface [m] */
-    double power;               /* [W], luminance; what many emitters are chosen by */
     float strength;             /* mean radiance, or intensity, or irradiance of a directional light (luminances) */
 } emitter;
 
-/* Up to this many emitters are weighed anew for each point that is lit; more are chosen by their power. */
+/* Up to this many emitters are weighed one by one for each point that is lit; a tree leads to one of more. */
 #define MOST_WEIGHED 32
 
-/* More than this are refused: 10 GiB of tables, and an index of 32 bits is enough. */
+/* [W/sr]; sums of as many as there may be stay finite. */
+#define MOST_INTENSITY 1e28f
+
+/* More than this are refused: 20 GiB of tables, and an index of 32 bits is enough. */
 #define MOST_EMITTERS (1u << 26)
 
 struct light_set {
@@ -39,7 +42,10 @@ struct light_set {
     sky sky;
     emitter *emitters;
     uint32_t n_emitters, capacity;
-    alias_table choice;        /* for more than MOST_WEIGHED */
+    uint32_t n_placed;   /* these come first; the rest are equally far from all points */
+    light_tree placed;   /* for more than MOST_WEIGHED */
+    alias_table distant; /* likewise, over the rest, if there are any */
+    float distant_weight;
     size_t *first_of_instance; /* [n_instances] index of the emitter of triangle 0, or NONE */
     size_t *of_sphere;         /* [n_spheres] emitter or NONE */
     size_t sky_emitter;        /* or NONE */
@@ -57,25 +63,25 @@ static facet_status add_emitter(light_set *set, const emitter *e)
     }
     emitter *added = &set->emitters[set->n_emitters++];
     *added = *e;
-    if (!(isfinite(e->power) && e->power > 0)) added->power = added->strength = 0;
+    if (!(isfinite(e->strength) && e->strength > 0)) added->strength = 0;
     return FACET_OK;
 }
 
 /* The triangle's mean emitted luminance, from ten points of it; a texture that is black there but perhaps not
  * everywhere keeps a hundredth of the factor. */
-static double mean_emission(const scene *s, const mesh *m, uint32_t triangle)
+static float mean_emission(const scene *s, const mesh *m, uint32_t triangle)
 {
     const material *mat = &s->materials[m->material];
-    const double full = (double)luminance(vector_of(mat->emission));
+    const float full = luminance(vector_of(mat->emission));
     if (mat->emissive_texture.texture == NONE) return full;
-    double sum = 0;
+    float sum = 0;
     enum { STEPS = 4 };
     const float third = (float)(1.0/3);
     for (int i = 0; i < STEPS; i++)
         for (int j = 0; i + j < STEPS; j++)
-            sum += (double)luminance(
+            sum += luminance(
                 surface_emission(s, m, triangle, ((float)i + third)/(float)STEPS, ((float)j + third)/(float)STEPS));
-    return 0.01*full + sum/10;
+    return 0.01f*full + sum/10;
 }
 
 static facet_status add_instance(light_set *set, size_t index)
@@ -103,9 +109,7 @@ static facet_status add_instance(light_set *set, size_t index)
         e.is_even = mat->emissive_texture.texture == NONE;
         e.radiance = vector_of(mat->emission);
         e.offset = RELATIVE_OFFSET*kmax(max_abs3(p0), kmax(max_abs3(p1), max_abs3(p2)));
-        const double mean = mean_emission(s, m, i);
-        e.strength = (float)mean;
-        e.power = (double)PI*(double)e.area*mean*(e.is_double_sided ? 2 : 1);
+        if (e.area > 0 && isfinite(e.area)) e.strength = mean_emission(s, m, i);
         const facet_status status = add_emitter(set, &e);
         if (status) return status;
     }
@@ -117,65 +121,98 @@ static facet_status add_sphere(light_set *set, size_t index)
     const sphere *sp = &set->scene->spheres[index];
     const material *mat = &set->scene->materials[sp->material];
     set->of_sphere[index] = NONE;
-    const double L = (double)luminance(vector_of(mat->emission));
+    const float L = luminance(vector_of(mat->emission));
     if (mat->kind == SURFACE_UNLIT || !(L > 0)) return FACET_OK;
     set->of_sphere[index] = set->n_emitters;
     const emitter e = {.kind = EMITTER_SPHERE,
                        .primitive = (uint32_t)index,
                        .is_double_sided = mat->is_double_sided,
                        .offset = RELATIVE_OFFSET*kmax(max_abs3(vector_of(sp->center)), sp->radius),
-                       .power = (mat->is_double_sided ? 8 : 4)*(double)PI*(double)PI*(double)sp->radius*
-                                (double)sp->radius*L,
-                       .strength = (float)L};
+                       .strength = L};
     return add_emitter(set, &e);
 }
 
-/* scene_radius: of a sphere around everything, for lights whose power depends on it [m]. */
-static facet_status add_punctual(light_set *set, size_t index, double scene_radius)
+static facet_status add_punctual(light_set *set, size_t index)
 {
-    const punctual_light *light = &set->scene->lights[index];
-    const double I = (double)luminance(vector_of(light->intensity));
-    double extent = 4*(double)PI;
-    if (light->kind == LIGHT_SPOT) extent = 2*(double)PI*(1 - 0.5*(double)(light->cos_inner + light->cos_outer));
-    if (light->kind == LIGHT_DIRECTIONAL) extent = (double)PI*scene_radius*scene_radius;
-    const emitter e = {
-        .kind = EMITTER_PUNCTUAL, .primitive = (uint32_t)index, .power = I*extent, .strength = (float)I};
+    const float intensity = luminance(vector_of(set->scene->lights[index].intensity));
+    const emitter e = {.kind = EMITTER_PUNCTUAL, .primitive = (uint32_t)index, .strength = intensity};
     return add_emitter(set, &e);
 }
 
 static facet_status collect(light_set *set)
 {
     const scene *s = set->scene;
-    float low[3], high[3];
-    double radius2 = 1;
-    if (scene_bounds(s, low, high)) {
-        radius2 = 0;
-        for (int k = 0; k < 3; k++) radius2 += 0.25*((double)high[k] - low[k])*((double)high[k] - low[k]);
-        if (!(radius2 > 0 && isfinite(radius2))) radius2 = 1;
-    }
     facet_status status = FACET_OK;
     for (size_t i = 0; i < s->n_instances && !status; i++) status = add_instance(set, i);
     for (size_t i = 0; i < s->n_spheres && !status; i++) status = add_sphere(set, i);
-    for (size_t i = 0; i < s->n_lights && !status; i++) status = add_punctual(set, i, sqrt(radius2));
+    for (size_t i = 0; i < s->n_lights && !status; i++)
+        if (s->lights[i].kind != LIGHT_DIRECTIONAL) status = add_punctual(set, i);
+    set->n_placed = set->n_emitters;
+    for (size_t i = 0; i < s->n_lights && !status; i++)
+        if (s->lights[i].kind == LIGHT_DIRECTIONAL) status = add_punctual(set, i);
     set->sky_emitter = NONE;
     if (!status && set->sky.mean > 0) {
         set->sky_emitter = set->n_emitters;
-        const double extent = 4*(double)PI*(double)PI*radius2;
-        const emitter e = {.kind = EMITTER_SKY, .power = extent*set->sky.mean, .strength = (float)set->sky.mean};
+        const emitter e = {.kind = EMITTER_SKY, .strength = (float)set->sky.mean};
         status = add_emitter(set, &e);
     }
     return status;
 }
 
-/* The table by which many emitters are chosen. */
+/* What the tree of lights needs of an emitter. */
+static placed_light placed_light_of(const scene *s, const emitter *e)
+{
+    placed_light light = {.is_double_sided = e->is_double_sided};
+    float intensity = e->strength;
+    if (e->kind == EMITTER_TRIANGLE) {
+        const real3 p1 = add3(e->origin, e->edge1), p2 = add3(e->origin, e->edge2);
+        light.low = min3(e->origin, min3(p1, p2));
+        light.high = max3(e->origin, max3(p1, p2));
+        light.axis = e->normal;
+        intensity *= e->area;
+    } else if (e->kind == EMITTER_SPHERE) {
+        const sphere *sp = &s->spheres[e->primitive];
+        light.low = sub3(vector_of(sp->center), splat3(sp->radius));
+        light.high = add3(vector_of(sp->center), splat3(sp->radius));
+        intensity *= PI*sp->radius*sp->radius;
+    } else {
+        const punctual_light *punctual = &s->lights[e->primitive];
+        light.low = light.high = vector_of(punctual->position);
+        if (punctual->kind == LIGHT_SPOT) {
+            light.axis = vector_of(punctual->direction);
+            light.cos_spread = punctual->cos_outer;
+        }
+    }
+    light.intensity = e->strength > 0 ? kmin(kmax(intensity, REAL_MIN), MOST_INTENSITY) : 0;
+    return light;
+}
+
+/* About the irradiance that a distant emitter brings. */
+static float distant_importance(const emitter *e)
+{
+    return e->kind == EMITTER_SKY ? e->strength*PI : e->strength;
+}
+
+/* The tables by which one of many emitters is chosen. */
 static facet_status tabulate(light_set *set)
 {
     if (set->n_emitters <= MOST_WEIGHED) return FACET_OK;
-    double *powers = malloc(set->n_emitters*sizeof *powers);
-    if (!powers) return FACET_NO_MEMORY;
-    for (uint32_t i = 0; i < set->n_emitters; i++) powers[i] = set->emitters[i].power;
-    const facet_status status = alias_table_create(powers, set->n_emitters, &set->choice);
-    free(powers);
+    const uint32_t n_distant = set->n_emitters - set->n_placed;
+    placed_light *lights = malloc((set->n_placed + 1)*sizeof *lights);
+    double *weights = malloc((n_distant + 1)*sizeof *weights);
+    facet_status status = lights && weights ? FACET_OK : FACET_NO_MEMORY;
+    if (status) goto done;
+    for (uint32_t i = 0; i < set->n_placed; i++) lights[i] = placed_light_of(set->scene, &set->emitters[i]);
+    for (uint32_t i = 0; i < n_distant; i++) {
+        const float weight = distant_importance(&set->emitters[set->n_placed + i]);
+        weights[i] = (double)weight;
+        set->distant_weight += weight;
+    }
+    status = light_tree_create(lights, set->n_placed, &set->placed);
+    if (!status && n_distant > 0) status = alias_table_create(weights, n_distant, &set->distant);
+done:
+    free(weights);
+    free(lights);
     return status;
 }
 
@@ -206,7 +243,8 @@ void light_set_destroy(light_set *set)
 {
     if (!set) return;
     sky_destroy(&set->sky);
-    alias_table_destroy(&set->choice);
+    light_tree_destroy(&set->placed);
+    alias_table_destroy(&set->distant);
     free(set->emitters);
     free(set->first_of_instance);
     free(set->of_sphere);
@@ -354,39 +392,59 @@ static float importance(const light_set *set, const emitter *e, real3 from)
     }
     case EMITTER_SKY: break;
     }
-    return e->strength*PI;
+    return distant_importance(e);
 }
 
-/* Chooses an emitter for a point; *rest is what is left of u, *probability that of the choice, 0 for none. */
-static uint32_t choose_emitter(const light_set *set, real3 from, uint32_t u, uint32_t *rest, float *probability)
+/* The 32 digits of a fraction. */
+static uint32_t digits_of(double fraction)
 {
-    if (set->n_emitters > MOST_WEIGHED) {
-        const uint32_t index = alias_table_draw(&set->choice, u, rest);
-        *probability = set->choice.cells[index].probability;
+    return fraction*0x1p32 < 0x1p32 - 1 ? (uint32_t)(fraction*0x1p32) : UINT32_MAX;
+}
+
+/* The probability that one of many emitters is chosen among those with a place. */
+static float share_of_placed(const light_set *set, real3 from)
+{
+    if (!(set->distant_weight > 0)) return 1;
+    const float irradiance = light_tree_irradiance(&set->placed, from);
+    return irradiance/(irradiance + set->distant_weight);
+}
+
+static uint32_t choose_of_many(const light_set *set, real3 from, double *u, float *probability)
+{
+    const float share = share_of_placed(set, from), shares[2] = {share, 1 - share};
+    uint32_t index = 0;
+    if (draw_weighted(shares, 2, 1, u) == 0) {
+        *probability = (float)((double)share*light_tree_draw(&set->placed, from, u, &index));
         return index;
     }
+    uint32_t rest;
+    index = alias_table_draw(&set->distant, digits_of(*u), &rest);
+    *u = (double)rest*0x1p-32;
+    *probability = (1 - share)*set->distant.cells[index].probability;
+    return set->n_placed + index;
+}
+
+/* Chooses an emitter for a point by *u in [0,1), of which it leaves the rest; *probability of it: 0 for none. */
+static uint32_t choose_emitter(const light_set *set, real3 from, double *u, float *probability)
+{
+    if (set->n_emitters > MOST_WEIGHED) return choose_of_many(set, from, u, probability);
     float weights[MOST_WEIGHED], sum = 0;
     for (uint32_t i = 0; i < set->n_emitters; i++) sum += weights[i] = importance(set, &set->emitters[i], from);
-    double left = (double)u*0x1p-32*(double)sum; /* all 32 digits: the rest chooses one of many texels */
-    uint32_t index = 0, last = 0;
-    for (; index < set->n_emitters; left -= (double)weights[index++]) {
-        if (weights[index] > 0) last = index;
-        if (left < (double)weights[index]) break;
-    }
-    if (index == set->n_emitters) { /* rounding at the upper end */
-        index = last;
-        left = 0;
-    }
-    *probability = sum > 0 && sum < INFINITY ? weights[index]/sum : 0;
-    const double fraction_left = *probability > 0 ? left/(double)weights[index]*0x1p32 : 0;
-    *rest = fraction_left < 0x1p32 - 1 ? (uint32_t)fraction_left : UINT32_MAX;
+    *probability = 0;
+    if (!(sum > 0 && sum < INFINITY)) return 0;
+    const uint32_t index = draw_weighted(weights, set->n_emitters, sum, u);
+    *probability = weights[index]/sum;
     return index;
 }
 
 /* The probability with which choose_emitter chooses this one. */
 static float choice_probability(const light_set *set, real3 from, size_t index)
 {
-    if (set->n_emitters > MOST_WEIGHED) return set->choice.cells[index].probability;
+    if (set->n_emitters > MOST_WEIGHED) {
+        const float share = share_of_placed(set, from);
+        if (index >= set->n_placed) return (1 - share)*set->distant.cells[index - set->n_placed].probability;
+        return (float)((double)share*light_tree_probability(&set->placed, from, (uint32_t)index));
+    }
     float sum = 0;
     for (uint32_t i = 0; i < set->n_emitters; i++) sum += importance(set, &set->emitters[i], from);
     return sum > 0 && sum < INFINITY ? importance(set, &set->emitters[index], from)/sum : 0;
@@ -396,9 +454,10 @@ light_sample light_set_sample(const light_set *set, real3 from, const uint32_t u
 {
     light_sample s = {.pdf = 0};
     if (set->n_emitters == 0) return s;
-    uint32_t rest;
+    /* Choosing among many takes more digits than u[0] has, and the sky's texel what is left of them. */
+    double choice = (double)u[0]*0x1p-32 + (double)hash_pair(u[0], u[1] ^ u[2])*0x1p-64;
     float probability;
-    const uint32_t index = choose_emitter(set, from, u[0], &rest, &probability);
+    const uint32_t index = choose_emitter(set, from, &choice, &probability);
     if (!(probability > 0)) return s;
     const emitter *e = &set->emitters[index];
     const float v = fraction(u[1]), w = fraction(u[2]);
@@ -407,9 +466,7 @@ light_sample light_set_sample(const light_set *set, real3 from, const uint32_t u
     case EMITTER_SPHERE: s = sample_sphere(set, e, from, v, w); break;
     case EMITTER_PUNCTUAL: s = sample_punctual(set, e, from); break;
     case EMITTER_SKY:
-        /* The texel is chosen by what choosing the emitter left of u[0], as long as that is enough. */
-        if (set->n_emitters > 256) rest = hash_pair(u[0], u[1] ^ u[2]);
-        s.direction = sky_sample(&set->sky, rest, v, w, &s.pdf);
+        s.direction = sky_sample(&set->sky, digits_of(choice), v, w, &s.pdf);
         s.radiance = sky_radiance(&set->sky, s.direction);
         s.is_infinite = true;
         break;

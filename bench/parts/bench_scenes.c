@@ -7,64 +7,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "bench/parts/build_scene.h"
 #include "io/gltf.h"
 #include "io/image_file.h"
 #include "render/geometry.h"
 #include "render/view.h"
 
-void bench_check(facet_status status, const char *what)
-{
-    if (status == FACET_OK) return;
-    fprintf(stderr, "bench: %s: %s\n", what, facet_status_string(status));
-    exit(4);
-}
-
-static void *allocate(size_t n, size_t size)
-{
-    void *p = calloc(n, size);
-    if (!p) bench_check(FACET_NO_MEMORY, "scene");
-    return p;
-}
-
-static size_t add_material(scene *s, const char *spec, float emission)
-{
-    material m;
-    facet_material described;
-    facet_error why = {.text = ""};
-    bench_check(material_default(spec, &m), spec);
-    bench_check(facet_material_parse(spec, &described, &why), why.text);
-    bench_check(facet_bsdf_prepare(&described, &m.bsdf, &why), why.text);
-    m.kind = SURFACE_BSDF;
-    for (int k = 0; k < 3; k++) m.emission[k] = emission;
-    size_t index;
-    bench_check(scene_add_material(s, &m, &index), spec);
-    return index;
-}
-
-static void add_mesh(scene *s, mesh *m)
-{
-    instance in = {.to_world = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}}};
-    bench_check(scene_add_mesh(s, m, &in.mesh), "mesh");
-    bench_check(scene_add_instance(s, &in, NULL), "instance");
-}
-
-/* Two triangles over four corners in order. */
-static void add_quad(scene *s, size_t material_index, const float corners[4][3])
-{
-    mesh m = {.n_vertices = 4, .n_triangles = 2, .material = material_index};
-    m.positions = allocate(4, sizeof *m.positions);
-    m.triangles = allocate(2, sizeof *m.triangles);
-    memcpy(m.positions, corners, 4*sizeof *m.positions);
-    const uint32_t triangles[2][3] = {{0, 1, 2}, {0, 2, 3}};
-    memcpy(m.triangles, triangles, sizeof triangles);
-    add_mesh(s, &m);
-}
-
 /* Box x in [-1,1], y in [0,2], z in [-1,1], front open, and a light of 0.5 x 0.5 a millimetre under its ceiling. */
 static scene *add_box(void)
 {
     scene *s = scene_create();
-    if (!s) bench_check(FACET_NO_MEMORY, "scene");
+    if (!s) check(FACET_NO_MEMORY, "scene");
     const size_t grey = add_material(s, "lambert kd=.725,.71,.68", 0),
                  red = add_material(s, "lambert kd=.63,.065,.05", 0),
                  green = add_material(s, "lambert kd=.14,.45,.091", 0), light = add_material(s, "lambert kd=0", 15);
@@ -79,7 +32,7 @@ static scene *add_box(void)
     camera cam = {
         .name = allocate(2, 1), .to_world = {{1, 0, 0, 0}, {0, 1, 0, 1}, {0, 0, 1, 3.9f}}, .yfov = 39*PI/180};
     cam.name[0] = 'c';
-    bench_check(scene_add_camera(s, &cam, NULL), "camera");
+    check(scene_add_camera(s, &cam, NULL), "camera");
     return s;
 }
 
@@ -88,8 +41,8 @@ static scene *spheres_scene(void)
     scene *s = add_box();
     const sphere metal = {{-.45f, .4f, -.3f}, .4f, add_material(s, "ggx alpha=.09 ks=.9", 0)};
     const sphere glass = {{.45f, .4f, .3f}, .4f, add_material(s, "glass ior=1.5", 0)};
-    bench_check(scene_add_sphere(s, &metal, NULL), "sphere");
-    bench_check(scene_add_sphere(s, &glass, NULL), "sphere");
+    check(scene_add_sphere(s, &metal, NULL), "sphere");
+    check(scene_add_sphere(s, &glass, NULL), "sphere");
     return s;
 }
 
@@ -149,8 +102,8 @@ static scene *gtr_scene(void)
     scene *s = add_box();
     const sphere left = {{-.45f, .4f, -.3f}, .4f, add_material(s, "gtr alpha=.05 gamma=1.2 metal=Au", 0)};
     const sphere right = {{.45f, .4f, .3f}, .4f, add_material(s, "gtr alpha=.2 gamma=.7 ks=.9", 0)};
-    bench_check(scene_add_sphere(s, &left, NULL), "sphere");
-    bench_check(scene_add_sphere(s, &right, NULL), "sphere");
+    check(scene_add_sphere(s, &left, NULL), "sphere");
+    check(scene_add_sphere(s, &right, NULL), "sphere");
     return s;
 }
 
@@ -176,11 +129,11 @@ static scene *model_scene(const char *model, const char *sky)
     image raw = {0}, linear = {0};
     snprintf(path, sizeof path, FACET_SOURCE_DIR "/../shared/assets/hdri/%s", sky);
     if (!s) return NULL;
-    if (image_read(path, &raw, NULL) == FACET_OK) bench_check(image_to_linear(&raw, &linear, NULL), sky);
+    if (image_read(path, &raw, NULL) == FACET_OK) check(image_to_linear(&raw, &linear, NULL), sky);
     image_destroy(&raw);
     s->environment.map = linear;
     for (int k = 0; k < 3; k++) s->environment.scale[k] = 1;
-    if (s->n_cameras == 0) bench_check(scene_add_framing_camera(s, NULL), "camera");
+    if (s->n_cameras == 0) check(scene_add_framing_camera(s, NULL), "camera");
     return s;
 }
 

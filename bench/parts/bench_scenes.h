@@ -23,9 +23,6 @@ typedef struct bench_scene {
 enum { BENCH_SCENES = 7 };
 extern const bench_scene bench_scenes[BENCH_SCENES];
 
-/* Ends the program with status 4 and a line that says what failed. */
-void bench_check(facet_status status, const char *what);
-
 #ifdef __cplusplus
 }
 #endif

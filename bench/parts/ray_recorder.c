@@ -6,7 +6,7 @@
 #include <string.h>
 #include <time.h>
 
-#include "bench/parts/bench_scenes.h"
+#include "bench/parts/build_scene.h"
 
 enum { MOST_RECORDED = 1 << 21, LARGEST_GROUP = 1 << 12 };
 
@@ -50,13 +50,6 @@ void __wrap_tracer_blocked(const tracer *t, size_t n, rays r, uint32_t *is_block
 {
     if (is_recording) record(&recorded_shadow, n, r, false);
     __real_tracer_blocked(t, n, r, is_blocked);
-}
-
-static void *allocate(size_t n, size_t size)
-{
-    void *p = calloc(n, size);
-    if (!p) bench_check(FACET_NO_MEMORY, "recorded rays");
-    return p;
 }
 
 static void log_create(ray_log *log)

@@ -231,7 +231,7 @@ static void case_B_a_lamp_in_a_closed_sphere(void **state)
 static void case_C_a_disc_over_a_glossy_plane(void **state)
 {
     (void)state;
-    check_strategies("C: disc over gloss", case_C(), truth_C(), (const uint32_t[3]){200, 200, 3200}, 8);
+    check_strategies("C: disc over gloss", case_C(), truth_C(), (const uint32_t[3]){360, 480, 3200}, 8);
 }
 
 /* E = pi L (r/d)^2 cos for a sphere that is wholly above the horizon. */

@@ -239,6 +239,69 @@ static void spheres_are_drawn_by_their_cone(void **state)
     check_densities("sphere, from its own surface", s, make3(.6f, .8f, 0), 0.001);
 }
 
+/* More emitters than are weighed one by one. */
+static void many_emitters_are_drawn_as_claimed(void **state)
+{
+    (void)state;
+    scene *s = build_scene();
+    const size_t ball = build_zone(s, glow(s, 2, false), 1, -1, 8, 12, false);
+    build_instance(s, ball, (const float[3][4]){{1, 0, 0, 3}, {0, 1, 0, 0}, {0, 0, 1, 0}});
+    check_densities("ball", s, make3(.2f, 0, .1f), 0.7);
+    s = build_scene();
+    /* All of radiance 1, so that rays that pass an edge by rounding see what the draw says. */
+    for (int i = 0; i < 40; i++) {
+        const float angle = (float)(2*pi*i/40), cos = cosf(angle), sin = sinf(angle);
+        const float x = 3*cos, y = (float)(i%5 - 2), z = 3*sin, size = .1f + .01f*(float)i;
+        if (i%4 == 0) build_sphere(s, glow(s, 1, false), x, y, z, .2f);
+        else
+            build_quad(s, glow(s, 1, i%3 == 0), (const float[3]){x, y, z}, (const float[3]){0, size, .1f},
+                       (const float[3]){.3f*sin, 0, -.3f*cos});
+    }
+    for (int k = 0; k < 3; k++) s->environment.scale[k] = 1;
+    check_densities("spheres, quads and sky", s, make3(.2f, 0, .1f), 0.5);
+}
+
+/* The mean of what draws bring, each over its probability, is the sum over the lights. */
+static void punctual_lights_among_many_bring_their_light(void **state)
+{
+    (void)state;
+    enum { PLACED = 60, DISTANT = 5, COUNT = 200000/SAMPLE_DIVISOR };
+    scene *s = build_scene();
+    draws d = {9};
+    const real3 from = make3(.3f, -.2f, .1f);
+    double truth = 0;
+    for (int i = 0; i < PLACED + DISTANT; i++) {
+        punctual_light light = {.kind = i >= PLACED ? LIGHT_DIRECTIONAL
+                                        : i%3     ? LIGHT_SPOT
+                                                  : LIGHT_POINT,
+                                .direction = {0, -1, 0}};
+        for (int k = 0; k < 3; k++) light.position[k] = (float)draw_between(&d, -2, 2);
+        for (int k = 0; k < 3; k++) light.intensity[k] = (float)(i + 1);
+        light.cos_outer = .3f;
+        light.cos_inner = .3001f;
+        const real3 way = sub3(from, vector_of(light.position));
+        const double d2 = (double)dot3(way, way);
+        if (light.kind == LIGHT_DIRECTIONAL) truth += i + 1;
+        else if (light.kind == LIGHT_POINT || -(double)way.y > .3002*sqrt(d2)) truth += (i + 1)/d2;
+        assert_int_equal(scene_add_light(s, &light, NULL), FACET_OK);
+    }
+    light_set *set = lights_of(s);
+    double sum = 0, squares = 0;
+    for (int i = 0; i < COUNT; i++) {
+        const light_sample l = draw_light(set, from, &d);
+        if (!(l.pdf > 0)) continue;
+        assert_true(l.is_delta);
+        const double value = (double)l.radiance.x/(double)l.pdf;
+        sum += value;
+        squares += value*value;
+    }
+    const double mean = sum/COUNT, error = sqrt((squares/COUNT - mean*mean)/COUNT);
+    print_message("  irradiance %g +- %g, truth %g\n", mean, error, truth);
+    assert_true(fabs(mean - truth) < 5*error);
+    light_set_destroy(set);
+    scene_destroy(s);
+}
+
 /* A sphere of 1e-3 at a distance of 1e3 subtends pi 1e-12 sr: the density must be 1 over that although 1 - cos
  * vanishes in single precision, and all draws must hit it. */
 static void far_small_spheres_keep_their_solid_angle(void **state)
@@ -388,6 +451,8 @@ int main(void)
         cmocka_unit_test(triangles_are_drawn_by_their_solid_angle),
         cmocka_unit_test(a_scaled_and_mirrored_instance_is_drawn_where_it_is),
         cmocka_unit_test(spheres_are_drawn_by_their_cone),
+        cmocka_unit_test(many_emitters_are_drawn_as_claimed),
+        cmocka_unit_test(punctual_lights_among_many_bring_their_light),
         cmocka_unit_test(far_small_spheres_keep_their_solid_angle),
         cmocka_unit_test(sky_maps_are_drawn_by_their_radiance),
         cmocka_unit_test(no_lit_direction_has_density_zero),

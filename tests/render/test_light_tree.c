@@ -1,0 +1,270 @@
+/* test_light_tree.c: lights are drawn from the tree as often as it says, and none that shines at a point is left out.
+ * SPDX-License-Identifier: MIT */
+#include "render/light_tree.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include <cmocka.h>
+
+#include "tests/draws.h"
+#include "tests/scene_builder.h"
+#include "verify/chi_square.h"
+
+enum { MOST = 3000 };
+
+typedef enum kind { ONE_SIDED, TWO_SIDED, SPOTS, ALL_AROUND, MIXED, N_KINDS } kind;
+
+static float between(draws *d, double low, double high)
+{
+    return (float)draw_between(d, low, high);
+}
+
+static real3 point_within(draws *d, double extent)
+{
+    const float x = between(d, -extent, extent), y = between(d, -extent, extent);
+    return make3(x, y, between(d, -extent, extent));
+}
+
+static real3 direction(draws *d)
+{
+    double v[3];
+    draw_direction(d, v);
+    const float sign = draw_bits(d) & 1 ? 1.0f : -1.0f;
+    return make3((float)v[0], (float)v[1], sign*(float)v[2]);
+}
+
+/* A light of one point of its box, anywhere in a cube of two metres; intensities span six decades. */
+static placed_light random_light(draws *d, kind k)
+{
+    if (k == MIXED) k = (kind)(draw_bits(d)%MIXED);
+    const float size = (float)draw_log(d, 1e-6, .5);
+    placed_light light = {.low = point_within(d, 1), .intensity = (float)draw_log(d, 1e-3, 1e3)};
+    light.high = k == SPOTS ? light.low : add3(light.low, make3(size, size*between(d, 0, 1), size));
+    if (k != ALL_AROUND) light.axis = direction(d);
+    if (k == SPOTS) light.cos_spread = between(d, 0, 1);
+    light.is_double_sided = k == TWO_SIDED;
+    return light;
+}
+
+static light_tree tree_of(const placed_light *lights, uint32_t n)
+{
+    light_tree tree;
+    assert_int_equal(light_tree_create(lights, n, &tree), FACET_OK);
+    return tree;
+}
+
+/* Among the lights, and 10^4 times as far away as they are from each other. */
+static real3 random_point(draws *d)
+{
+    return point_within(d, draw_log(d, .1, 1e4));
+}
+
+/* Rounding: a part in 10^7 for each weight of a sum of eight, on eight levels. */
+static double sum_of_probabilities(const light_tree *tree, uint32_t n, real3 from, double *each)
+{
+    double sum = 0;
+    for (uint32_t i = 0; i < n; i++) sum += each[i] = light_tree_probability(tree, from, i);
+    assert_true(sum < 1 + 1e-5);
+    return sum;
+}
+
+static void probabilities_add_up_to_one(void **state)
+{
+    (void)state;
+    static placed_light lights[MOST];
+    static double each[MOST];
+    draws d = {1};
+    for (kind k = ONE_SIDED; k < N_KINDS; k++)
+        for (uint32_t n = 1; n <= MOST; n = n*3 + 1) {
+            for (uint32_t i = 0; i < n; i++) lights[i] = random_light(&d, k);
+            light_tree tree = tree_of(lights, n);
+            for (int i = 0; i < 4 + 96/SAMPLE_DIVISOR; i++) {
+                const real3 from = i == 0 ? lights[0].low : random_point(&d);
+                const double sum = sum_of_probabilities(&tree, n, from, each);
+                /* Elsewhere what lacks is the chance of a node that proves dark only when it is opened. */
+                if (k == ALL_AROUND) assert_true(sum > 1 - 1e-5);
+            }
+            light_tree_destroy(&tree);
+        }
+}
+
+static void draws_follow_the_probabilities(void **state)
+{
+    (void)state;
+    enum { N = 300, COUNT = 100000/SAMPLE_DIVISOR };
+    static placed_light lights[N];
+    static double expected[N + 1], observed[N + 1];
+    draws d = {2};
+    for (kind k = ONE_SIDED; k < N_KINDS; k++)
+        for (int i = 0; i < 8; i++) {
+            for (uint32_t j = 0; j < N; j++) lights[j] = random_light(&d, k);
+            light_tree tree = tree_of(lights, N);
+            const real3 from = random_point(&d);
+            expected[N] = fmax(1 - sum_of_probabilities(&tree, N, from, expected), 1e-5);
+            for (int j = 0; j <= N; j++) {
+                expected[j] *= COUNT;
+                observed[j] = 0;
+            }
+            for (int j = 0; j < COUNT; j++) {
+                double u = draw(&d) + draw(&d)*0x1p-24;
+                uint32_t light = N;
+                const double probability = light_tree_draw(&tree, from, &u, &light);
+                assert_true(u >= 0 && u < 1);
+                observed[probability > 0 ? light : N]++;
+                if (!(probability > 0)) continue;
+                const double told = light_tree_probability(&tree, from, light);
+                assert_true(fabs(told - probability) <= 1e-14*probability); /* the factors in another order */
+            }
+            const chi_square c = chi_square_test(expected, observed, N + 1);
+            assert_true(c.p > sidak_level(1e-3, N_KINDS*8));
+            light_tree_destroy(&tree);
+        }
+}
+
+/* What is left of the number that drew a light is as uniform as the number was. */
+static void the_rest_is_uniform(void **state)
+{
+    (void)state;
+    enum { N = 40, COUNT = 100000/SAMPLE_DIVISOR, CELLS = 16 };
+    placed_light lights[N];
+    double expected[CELLS], observed[CELLS] = {0};
+    draws d = {3};
+    for (uint32_t i = 0; i < N; i++) lights[i] = random_light(&d, ALL_AROUND);
+    light_tree tree = tree_of(lights, N);
+    for (int i = 0; i < COUNT; i++) {
+        double u = draw(&d) + draw(&d)*0x1p-24;
+        uint32_t light;
+        assert_true(light_tree_draw(&tree, make3(.1f, 3, .2f), &u, &light) > 0);
+        observed[(int)(u*CELLS)]++;
+    }
+    for (int i = 0; i < CELLS; i++) expected[i] = (double)COUNT/CELLS;
+    assert_true(chi_square_test(expected, observed, CELLS).p > 1e-3);
+    light_tree_destroy(&tree);
+}
+
+/* The cosine between a light's axis and the direction from a point of it to `to`. */
+static double cosine_at(const placed_light *light, real3 at, real3 to)
+{
+    const double x = (double)to.x - (double)at.x, y = (double)to.y - (double)at.y, z = (double)to.z - (double)at.z;
+    const double cos = (x*(double)light->axis.x + y*(double)light->axis.y + z*(double)light->axis.z)/
+                       sqrt(x*x + y*y + z*z);
+    return light->is_double_sided ? fabs(cos) : cos;
+}
+
+static real3 point_of(const placed_light *light, draws *d)
+{
+    const real3 size = sub3(light->high, light->low);
+    const float x = between(d, 0, 1)*size.x, y = between(d, 0, 1)*size.y;
+    return min3(add3(light->low, make3(x, y, between(d, 0, 1)*size.z)), light->high);
+}
+
+static void lights_that_shine_at_a_point_can_be_drawn(void **state)
+{
+    (void)state;
+    static placed_light lights[MOST];
+    draws d = {4};
+    int n_lit = 0, n_spared = 0;
+    for (kind k = ONE_SIDED; k < N_KINDS; k++)
+        for (uint32_t n = 1; n <= MOST; n = n*5 + 2) {
+            for (uint32_t i = 0; i < n; i++) lights[i] = random_light(&d, k);
+            light_tree tree = tree_of(lights, n);
+            for (int i = 0; i < 20000/SAMPLE_DIVISOR; i++) {
+                const uint32_t which = (uint32_t)(draw_bits(&d)%n);
+                const placed_light *light = &lights[which];
+                const real3 at = point_of(light, &d);
+                real3 from = random_point(&d);
+                if (i%4 == 0 && max_abs3(light->axis) > 0) { /* grazing: barely within the spread */
+                    const frame f = frame_of_normal(light->axis);
+                    const float cos = light->cos_spread, sin = ksqrt(1 - cos*cos), far = between(&d, .1, 10);
+                    from = add3(at, scale3(far, add3(scale3(sin, f.t), scale3(cos*1.0001f + 1e-6f, f.n))));
+                }
+                const double probability = light_tree_probability(&tree, from, which);
+                const double cos = max_abs3(light->axis) > 0 ? cosine_at(light, at, from) : 1;
+                const bool is_lit = cos > (double)light->cos_spread;
+                if (is_lit && !(probability > 0))
+                    fail_msg("kind %d, %u lights: light %u, cosine %a, from %a %a %a", (int)k, n, which, cos,
+                             (double)from.x, (double)from.y, (double)from.z);
+                n_lit += is_lit;
+                n_spared += !(probability > 0);
+            }
+            light_tree_destroy(&tree);
+        }
+    print_message("  %d lit, %d proven dark\n", n_lit, n_spared);
+    assert_true(n_lit > 1000/SAMPLE_DIVISOR && n_spared > 1000/SAMPLE_DIVISOR);
+}
+
+static void the_same_lights_give_the_same_tree(void **state)
+{
+    (void)state;
+    static placed_light lights[MOST];
+    draws d = {5};
+    for (uint32_t i = 0; i < MOST; i++) lights[i] = random_light(&d, MIXED);
+    light_tree a = tree_of(lights, MOST), b = tree_of(lights, MOST);
+    assert_int_equal(a.n_nodes, b.n_nodes);
+    assert_memory_equal(a.nodes, b.nodes, a.n_nodes*sizeof *a.nodes);
+    assert_memory_equal(a.place, b.place, MOST*sizeof *a.place);
+    light_tree_destroy(&a);
+    light_tree_destroy(&b);
+}
+
+/* Every light has a positive probability at a point outside, and all probabilities add up to one. */
+static void expect_all(const placed_light *lights, uint32_t n, real3 from)
+{
+    light_tree tree = tree_of(lights, n);
+    double sum = 0;
+    for (uint32_t i = 0; i < n; i++) {
+        const double p = light_tree_probability(&tree, from, i);
+        assert_true(lights[i].intensity > 0 ? p > 0 : p == 0);
+        sum += p;
+    }
+    assert_true(fabs(sum - 1) < 1e-5);
+    light_tree_destroy(&tree);
+}
+
+static void odd_sets_of_lights_are_served(void **state)
+{
+    (void)state;
+    enum { N = 100000 };
+    placed_light *lights = calloc(N, sizeof *lights);
+    assert_non_null(lights);
+    for (uint32_t i = 0; i < N; i++) lights[i].intensity = 1;
+    expect_all(lights, N, make3(0, 1, 0)); /* all at one point */
+    expect_all(lights, N, splat3(0));      /* ... and seen from there */
+    expect_all(lights, 1, make3(0, 1, 0));
+    for (uint32_t i = 0; i < N; i++) lights[i].intensity = i%3 == 0 ? 0.0f : 1.0f;
+    for (uint32_t i = 0; i < N; i++) lights[i].low.x = lights[i].high.x = ldexpf(1, (int)(i%250) - 125);
+    expect_all(lights, 250, make3(0, 1, 0)); /* ever nearer to each other */
+    expect_all(lights, N, make3(0, 1, 0));
+    for (uint32_t i = 0; i < N; i++) lights[i].low = splat3(-1e38f);
+    for (uint32_t i = 0; i < N; i++) lights[i].high = splat3(1e38f);
+    expect_all(lights, N, make3(0, 1, 0)); /* larger than numbers */
+
+    for (uint32_t i = 0; i < N; i++) lights[i].intensity = 0;
+    light_tree tree = tree_of(lights, N); /* dark */
+    double u = .5;
+    uint32_t light;
+    assert_true(light_tree_draw(&tree, splat3(0), &u, &light) == 0);
+    assert_true(light_tree_irradiance(&tree, splat3(0)) == 0);
+    assert_true(light_tree_probability(&tree, splat3(0), 7) == 0);
+    light_tree_destroy(&tree);
+    free(lights);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(probabilities_add_up_to_one),
+        cmocka_unit_test(draws_follow_the_probabilities),
+        cmocka_unit_test(the_rest_is_uniform),
+        cmocka_unit_test(lights_that_shine_at_a_point_can_be_drawn),
+        cmocka_unit_test(the_same_lights_give_the_same_tree),
+        cmocka_unit_test(odd_sets_of_lights_are_served),
+    };
+    return cmocka_run_group_tests_name("light_tree", tests, NULL, NULL);
+}
