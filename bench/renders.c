@@ -11,8 +11,9 @@
  *   clipped to 1, without the part that is the long render's own; and CPU time to a clipped RMSE of 0.02 by the
  *   1/sqrt(N) law;
  * - a Z-test: means of 16 x 16 pixels, by --strategy mis and the default sampler against independent numbers with
- *   --strategy explicit (mis in `veach`), four renders each: the largest of the deviations over their standard errors,
- *   and the share beyond 3.7, which Student's t of six degrees of freedom exceeds with a probability of 1 %.
+ *   --strategy explicit (mis in `veach`, `helmet` and `car`), four renders each: the largest of the deviations over their
+ *   standard errors, and the share beyond 3.7, which Student's t of six degrees of freedom exceeds with a probability of
+ *   1 %.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdio.h>
@@ -225,6 +226,7 @@ static void measure(const bench_scene *which, effort e, FILE *csv)
                 which->name, n_triangles, r.paths, r.rays, r.closest_per_path, r.shadow_per_path, r.closest_alone,
                 r.shadow_alone, r.share, r.scaling, error.raw, error.clipped, error.seconds, error.mean[0],
                 error.mean[1], error.mean[2], largest, share, r.isa);
+    if (csv) fflush(csv);
     scene_destroy(s);
 }
 

@@ -148,8 +148,11 @@ static scene *car_scene(void)
 }
 
 const bench_scene bench_scenes[BENCH_SCENES] = {
-    {"spheres", spheres_scene, STRATEGY_EXPLICIT}, {"70k", one_ball_scene, STRATEGY_EXPLICIT},
-    {"2M", eight_balls_scene, STRATEGY_EXPLICIT},  {"gtr", gtr_scene, STRATEGY_EXPLICIT},
-    {"veach", veach_scene, STRATEGY_MIS},          {"helmet", helmet_scene, STRATEGY_EXPLICIT},
-    {"car", car_scene, STRATEGY_EXPLICIT},
+    {"spheres", spheres_scene, STRATEGY_EXPLICIT},
+    {"70k", one_ball_scene, STRATEGY_EXPLICIT},
+    {"2M", eight_balls_scene, STRATEGY_EXPLICIT},
+    {"gtr", gtr_scene, STRATEGY_EXPLICIT},
+    {"veach", veach_scene, STRATEGY_MIS},
+    {"helmet", helmet_scene, STRATEGY_MIS},
+    {"car", car_scene, STRATEGY_MIS},
 };
