@@ -11,9 +11,9 @@
  *   clipped to 1, without the part that is the long render's own; and CPU time to a clipped RMSE of 0.02 by the
  *   1/sqrt(N) law;
  * - a Z-test: means of 16 x 16 pixels, by --strategy mis and the default sampler against independent numbers with
- *   --strategy explicit (mis in `veach`, `helmet` and `car`), four renders each: the largest of the deviations over their
- *   standard errors, and the share beyond 3.7, which Student's t of six degrees of freedom exceeds with a probability of
- *   1 %.
+ *   --strategy explicit (mis in `veach`, `helmet` and `car`), four renders each: the largest of the deviations over
+ *   their standard errors, and the share beyond 3.7, which Student's t of six degrees of freedom exceeds with a
+ *   probability of 1 %.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdio.h>
