@@ -1,8 +1,8 @@
-/* sampler.c: Owen-scrambled Sobol' points and independent random numbers.
+/* sampler.c: streams of samples; the points themselves are in loops_text.h.
  * SPDX-License-Identifier: MIT */
 #include "render/sampler.h"
 
-#include "render/sampler_point.h"
+#include "render/loops.h"
 
 sampler sampler_create(sampler_kind kind, uint32_t seed, uint32_t spp)
 {
@@ -18,15 +18,12 @@ sample_stream sampler_start(const sampler *s, uint32_t x, uint32_t y, uint32_t i
 
 sample_point sampler_point(const sampler *s, sample_stream stream, uint32_t group)
 {
-    const uint32_t seed = seed_for(stream.pixel, group);
-    sample_point p;
-    if (s->kind == SAMPLER_RANDOM) {
-        for (uint32_t d = 0; d < 3; d++) p.u[d] = random_fraction(stream.index, seed, d);
-        return p;
+    uint32_t pixel[LOOP_LANES], index[LOOP_LANES], room[3][LOOP_LANES];
+    uint32_t *const u[3] = {room[0], room[1], room[2]};
+    for (int i = 0; i < LOOP_LANES; i++) {
+        pixel[i] = stream.pixel;
+        index[i] = stream.index;
     }
-    const uint32_t index = shuffled_index(stream.index, seed, s->index_mask);
-    uint32_t digits[3] = {index, sobol_second(index), 0};
-    for (uint32_t bit = 0; s->index_mask >> bit; bit++) digits[2] = sobol_third_digit(digits[2], index, bit);
-    for (uint32_t d = 0; d < 3; d++) p.u[d] = scrambled_fraction(digits[d], seed, d);
-    return p;
+    render_loops_chosen()->points(s, 1, pixel, index, group, u);
+    return (sample_point){{u[0][0], u[1][0], u[2][0]}};
 }

@@ -1,4 +1,4 @@
-/* sampler_point.h: one point of the sampler, for a single call and for the loops over many.
+/* sampler_point.h: the parts of a point of the sampler, for the loops over many (loops_text.h).
  *
  * [burley20] Burley, Practical hash-based Owen scrambling, JCGT 2020.
  * SPDX-License-Identifier: MIT */

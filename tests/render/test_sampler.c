@@ -13,6 +13,7 @@
 
 #include <cmocka.h>
 
+#include "render/loops.h"
 #include "tests/scene_builder.h"
 #include "verify/chi_square.h"
 
@@ -205,6 +206,33 @@ static void a_fraction_stays_below_one(void **state)
     assert_true(fraction(0x80000000u) == 0.5f);
 }
 
+/* 150 of many streams at once, on every instruction set, and each alone. */
+static void a_point_does_not_depend_on_its_place_or_the_instruction_set(void **state)
+{
+    (void)state;
+    enum { N = 150, WHOLE = (N + LOOP_LANES - 1)/LOOP_LANES*LOOP_LANES };
+    for (int kind = SAMPLER_SOBOL; kind <= SAMPLER_RANDOM; kind++) {
+        const sampler s = sampler_create((sampler_kind)kind, 3, 1000);
+        uint32_t pixel[WHOLE] = {0}, index[WHOLE] = {0}, room[3][WHOLE];
+        uint32_t *const u[3] = {room[0], room[1], room[2]};
+        for (uint32_t i = 0; i < N; i++) {
+            const sample_stream stream = sampler_start(&s, i, 7, 11*i%1000);
+            pixel[i] = stream.pixel;
+            index[i] = stream.index;
+        }
+        for (size_t set = 0; facet_isa_name(set); set++) {
+            facet_isa_force(facet_isa_name(set));
+            render_loops_chosen()->points(&s, N, pixel, index, 5, u);
+            facet_isa_force("base");
+            for (uint32_t i = 0; i < N; i++) {
+                const sample_point alone = point_of(&s, i, 7, 11*i%1000, 5);
+                for (int d = 0; d < 3; d++) assert_int_equal(room[d][i], alone.u[d]);
+            }
+        }
+        facet_isa_force(NULL);
+    }
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -217,6 +245,7 @@ int main(void)
         cmocka_unit_test(products_across_groups_converge),
         cmocka_unit_test(numbers_are_repeatable),
         cmocka_unit_test(a_fraction_stays_below_one),
+        cmocka_unit_test(a_point_does_not_depend_on_its_place_or_the_instruction_set),
     };
     return cmocka_run_group_tests_name("sampler", tests, NULL, NULL);
 }
