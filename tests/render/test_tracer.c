@@ -374,7 +374,7 @@ static void aim(many_rays *r, draws *d)
 {
     for (size_t i = 0; i < MANY; i++) {
         const real3 way = direction_of(d), from = madd3(scale3(1.5f, direction_of(d)), -3, way);
-        const float fields[8] = {from.x, from.y, from.z, way.x, way.y, way.z, 0, i%3 ? INFINITY : 3};
+        const float fields[8] = {from.x, from.y, from.z, way.x, way.y, way.z, i%5 ? 0 : 2.5f, i%3 ? INFINITY : 3};
         for (int k = 0; k < 8; k++) r->of[k][i] = fields[k];
         r->seed[i] = (uint32_t)draw_bits(d);
     }
