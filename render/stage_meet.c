@@ -1,0 +1,153 @@
+/* stage_meet.c: where rays end: surfaces found, their light gathered.
+ * SPDX-License-Identifier: MIT */
+#include "render/stages.h"
+
+#include <math.h>
+#include <string.h>
+
+static hit hit_at(const path_batch *batch, uint32_t i)
+{
+    return (hit){batch->t[i], batch->u[i], batch->v[i], batch->instance[i], batch->primitive[i]};
+}
+
+/* glTF's single-sided surfaces are not drawn from behind; light meets them all the same. */
+static bool is_culled(const path_context *c, const hit *h, real3 direction)
+{
+    if (h->instance >= c->scene->n_instances) return false;
+    const instance *in = &c->scene->instances[h->instance];
+    const mesh *m = &c->scene->meshes[in->mesh];
+    const material *mat = &c->scene->materials[m->material];
+    if (mat->is_double_sided || mat->transmission > 0 || mat->kind == SURFACE_BSDF) return false;
+    const uint32_t *i = m->triangles[h->primitive];
+    const real3 p0 = vector_of(m->positions[i[0]]);
+    const real3 e1 = map_vector(in->to_world, sub3(vector_of(m->positions[i[1]]), p0));
+    const real3 e2 = map_vector(in->to_world, sub3(vector_of(m->positions[i[2]]), p0));
+    const float sign = map_determinant(in->to_world) < 0 ? -1.0f : 1.0f;
+    return sign * dot3(normal_of_edges(e1, e2), direction) > 0;
+}
+
+/* Sends a camera ray on through surfaces that are not drawn. */
+static void pass_culled(path_batch *batch, const path_context *c, path_list *list, uint32_t i, path_counts *counts)
+{
+    hit h = hit_at(batch, i);
+    while (h.instance != NO_HIT && is_culled(c, &h, get3(&list->ray.direction, i))) {
+        list->ray.t_min[i] = nextafterf(h.t, INFINITY);
+        const ray r = get_ray(&list->ray, i);
+        if (!tracer_intersect(c->tracer, &r, &h)) h.instance = NO_HIT;
+        counts->n_rays++;
+    }
+    batch->t[i] = h.t;
+    batch->u[i] = h.u;
+    batch->v[i] = h.v;
+    batch->instance[i] = h.instance;
+    batch->primitive[i] = h.primitive;
+}
+
+/* The nearest surface of every path's ray. */
+void stage_trace(path_batch *batch, const path_context *c, path_list *list, bool is_first, path_counts *counts)
+{
+    tracer_nearest(c->tracer, list->n, rays_of(&list->ray), is_first,
+                   (hits){batch->t, batch->u, batch->v, batch->instance, batch->primitive});
+    counts->n_rays += list->n;
+    if (is_first)
+        for (uint32_t i = 0; i < list->n; i++) pass_culled(batch, c, list, i, counts);
+}
+
+/* The weight of light that a scattered ray has met, which a light sample would have had density pdf_light for. */
+static float implicit_weight(const path_context *c, const path_list *list, uint32_t i, float pdf_light)
+{
+    if (list->origin[i] != FROM_LOBE || !(pdf_light > 0)) return 1;
+    switch (c->settings->strategy) {
+    case STRATEGY_EXPLICIT: return 0;
+    case STRATEGY_IMPLICIT: return 1;
+    case STRATEGY_MIS: break;
+    }
+    return power_heuristic(list->pdf_scatter[i], pdf_light);
+}
+
+static void gather(path_batch *batch, const path_list *list, uint32_t i, real3 radiance, float weight)
+{
+    if (weight > 0) add_radiance(batch, list->slot[i], mul3(get3(&list->throughput, i), scale3(weight, radiance)));
+}
+
+static void gather_sky(path_batch *batch, const path_context *c, const path_list *list, uint32_t i)
+{
+    const real3 direction = get3(&list->ray.direction, i);
+    const real3 radiance = sky_radiance(light_set_sky(c->lights), direction);
+    if (!(max_of3(radiance) > 0)) return;
+    const bool is_lobe = list->origin[i] == FROM_LOBE;
+    const float pdf = is_lobe ? light_set_pdf_of_sky(c->lights, get3(&list->previous, i), direction) : 0;
+    gather(batch, list, i, radiance, implicit_weight(c, list, i, pdf));
+}
+
+static void gather_emission(path_batch *batch, const path_context *c, const path_list *list, uint32_t i,
+                            const surface *at)
+{
+    if (list->origin[i] == FROM_CAMERA) gather(batch, list, i, at->unlit, 1);
+    if (!(max_of3(at->emission) > 0)) return;
+    const hit h = hit_at(batch, i);
+    const bool is_lobe = list->origin[i] == FROM_LOBE;
+    const float pdf = is_lobe ? light_set_pdf_of_hit(c->lights, get3(&list->previous, i), &h, at) : 0;
+    gather(batch, list, i, at->emission, implicit_weight(c, list, i, pdf));
+}
+
+/* The paths that met something, ordered by material, so that neighbours are shaded by the same code; returns their
+ * number.  The others meet the sky. */
+static uint32_t sort_by_material(path_batch *batch, const path_context *c, const path_list *list)
+{
+    uint32_t *const place = batch->n_of_material;
+    memset(place, 0, (c->scene->n_materials + 1) * sizeof *place);
+    for (uint32_t i = 0; i < list->n; i++) {
+        if (batch->instance[i] == NO_HIT) {
+            gather_sky(batch, c, list, i);
+            continue;
+        }
+        const hit h = hit_at(batch, i);
+        batch->material[i] = (uint32_t)surface_material(c->surfaces, &h);
+        place[batch->material[i] + 1]++;
+    }
+    for (size_t k = 1; k <= c->scene->n_materials; k++) place[k] += place[k - 1];
+    const uint32_t n = place[c->scene->n_materials];
+    for (uint32_t i = 0; i < list->n; i++)
+        if (batch->instance[i] != NO_HIT) batch->order[place[batch->material[i]]++] = i;
+    return n;
+}
+
+/* Asks for the memory of hits that come next. */
+static void expect(const path_batch *batch, const path_context *c, uint32_t k, uint32_t n)
+{
+    enum { AHEAD = 8 };
+    if (k + 2 * AHEAD < n) {
+        const hit h = hit_at(batch, batch->order[k + 2 * AHEAD]);
+        surface_expect_triangle(c->surfaces, &h);
+    }
+    if (k + AHEAD < n) {
+        const hit h = hit_at(batch, batch->order[k + AHEAD]);
+        surface_expect_vertices(c->surfaces, &h);
+    }
+}
+
+/* The surfaces that paths have met: their emission is gathered, and those that scatter become vertices. */
+void stage_meet(path_batch *batch, const path_context *c, const path_list *list, bool is_last)
+{
+    vertex_list *v = &batch->vertices;
+    const uint32_t n_hits = sort_by_material(batch, c, list);
+    uint32_t n = 0;
+    for (uint32_t k = 0; k < n_hits; k++) {
+        const uint32_t i = batch->order[k];
+        const ray r = get_ray(&list->ray, i);
+        const hit h = hit_at(batch, i);
+        const real3 wo = neg3(vector_of(r.direction));
+        surface *at = &v->at[n];
+        expect(batch, c, k, n_hits);
+        surface_find(c->surfaces, &r, &h, wo, fraction(batch->chance[0][i]), &v->own[n], at);
+        gather_emission(batch, c, list, i, at);
+        if (!at->scatters || is_last) continue;
+        set3(&v->wo, n, to_local(&at->shading, wo));
+        v->path[n] = i;
+        v->pixel[n] = list->pixel[i];
+        v->index[n] = list->index[i];
+        n++;
+    }
+    v->n = n;
+}

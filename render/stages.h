@@ -1,0 +1,182 @@
+/* stages.h: the stages of the path tracer and what they hand on: arrays over all paths of a tile.
+ * SPDX-License-Identifier: MIT */
+#pragma once
+
+#include <stdbool.h>
+#include <stdint.h>
+
+#include "render/loops.h"
+#include "render/path.h"
+#include "render/surface.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Groups of numbers: one for the camera, then these for every scattering event. */
+enum { GROUP_CAMERA, GROUP_LIGHT, GROUP_SCATTER, GROUP_CHANCE, GROUPS_PER_EVENT = 3 };
+
+/* Roulette starts at this event, and ends paths that carry less than this share of the light (docs/performance.md). */
+#define ROULETTE_START 2
+#define ROULETTE_BELOW 0.5f
+
+/* Arrays of a power of two would lie at equal offsets in their pages, and evict each other from the first cache. */
+enum { PATHS = TILE_SIZE * TILE_SIZE, ROOM = PATHS + 16 };
+_Static_assert(PATHS % LOOP_LANES == 0, "arrays hold whole vectors");
+
+/* What sent a ray. */
+typedef enum path_origin { FROM_CAMERA, FROM_DELTA, FROM_LOBE } path_origin;
+
+typedef struct vector_array {
+    float x[ROOM], y[ROOM], z[ROOM];
+} vector_array;
+
+typedef struct ray_array {
+    vector_array origin, direction;
+    float t_min[ROOM], t_max[ROOM];
+    uint32_t seed[ROOM];
+} ray_array;
+
+/* Paths that go on, and the ray that each follows, of unit direction.  Those that end are left out of the next list. */
+typedef struct path_list {
+    uint32_t n;
+    uint32_t slot[ROOM];               /* pixel of the tile */
+    uint32_t pixel[ROOM], index[ROOM]; /* sample_stream */
+    ray_array ray;
+    vector_array throughput;
+    float eta_scale[ROOM];   /* radiance lost to refraction and got back on leaving: not a reason to end a path */
+    vector_array previous;   /* where the ray was scattered */
+    float pdf_scatter[ROOM]; /* of its direction [1/sr] */
+    uint8_t origin[ROOM];    /* path_origin */
+} path_list;
+
+/* Where paths meet surfaces that scatter, ordered by material. */
+typedef struct vertex_list {
+    uint32_t n;
+    uint32_t path[ROOM]; /* index into the list of paths */
+    uint32_t pixel[ROOM], index[ROOM];
+    uint32_t u[3][ROOM];
+    vector_array wo, wi, number; /* local; number: the sampler's, as floats */
+    vector_array f;              /* or weight of a sample */
+    float pdf[ROOM];
+    int lobe[ROOM];
+    float eta[ROOM];
+    light_sample light[ROOM];
+    surface at[ROOM];
+    facet_bsdf own[ROOM];
+} vertex_list;
+
+typedef struct shadow_list {
+    uint32_t n;
+    uint32_t slot[ROOM];
+    ray_array ray;
+    vector_array radiance; /* what it brings if nothing is in its way */
+    uint32_t is_blocked[ROOM];
+} shadow_list;
+
+struct path_batch {
+    path_list lists[2];
+    vector_array radiance; /* gathered so far, by slot */
+    float t[ROOM], u[ROOM], v[ROOM];
+    uint32_t instance[ROOM], primitive[ROOM];
+    uint32_t chance[3][ROOM];
+    vertex_list vertices;
+    shadow_list shadows;
+    uint32_t material[ROOM], order[ROOM]; /* of what the paths met; the paths by it */
+    uint32_t *n_of_material;              /* counts, then places, of one more than the scene's materials */
+};
+
+static inline vectors vectors_of(vector_array *a)
+{
+    return (vectors){a->x, a->y, a->z};
+}
+
+static inline rays rays_of(ray_array *a)
+{
+    return (rays){vectors_of(&a->origin), vectors_of(&a->direction), a->t_min, a->t_max, a->seed};
+}
+
+static inline facet_dirs dirs_at(const vector_array *a, uint32_t first)
+{
+    return (facet_dirs){a->x + first, a->y + first, a->z + first};
+}
+
+static inline real3 get3(const vector_array *a, uint32_t i)
+{
+    return make3(a->x[i], a->y[i], a->z[i]);
+}
+
+static inline void set3(vector_array *a, uint32_t i, real3 v)
+{
+    a->x[i] = v.x;
+    a->y[i] = v.y;
+    a->z[i] = v.z;
+}
+
+static inline void set_ray(ray_array *a, uint32_t i, real3 origin, real3 direction, float t_max, uint32_t seed)
+{
+    set3(&a->origin, i, origin);
+    set3(&a->direction, i, direction);
+    a->t_min[i] = 0;
+    a->t_max[i] = t_max;
+    a->seed[i] = seed;
+}
+
+static inline ray get_ray(const ray_array *a, uint32_t i)
+{
+    return (ray){.origin = {a->origin.x[i], a->origin.y[i], a->origin.z[i]},
+                 .direction = {a->direction.x[i], a->direction.y[i], a->direction.z[i]},
+                 .t_min = a->t_min[i],
+                 .t_max = a->t_max[i],
+                 .seed = a->seed[i]};
+}
+
+static inline void add_radiance(path_batch *batch, uint32_t slot, real3 radiance)
+{
+    set3(&batch->radiance, slot, add3(get3(&batch->radiance, slot), radiance));
+}
+
+/* The power heuristic for the technique with density a against the other with density b. */
+static inline float power_heuristic(float a, float b)
+{
+    const float ratio = b / a; /* squares of densities overflow, squares of their ratio do so harmlessly */
+    return 1 / (1 + ratio * ratio);
+}
+
+/* Vertices from `first` on that share a bsdf which batches serve: their number, 0 if the first is none. */
+static inline uint32_t batch_from(const vertex_list *v, uint32_t first)
+{
+    const facet_bsdf *bsdf = v->at[first].bsdf;
+    if (bsdf == &v->own[first] || facet_bsdf_lobes(bsdf) & (FACET_DELTA | FACET_TRANSMISSION)) return 0;
+    uint32_t n = 1;
+    while (first + n < v->n && v->at[first + n].bsdf == bsdf) n++;
+    return n;
+}
+
+/* Whether wi and wo lie on the same side of the true surface for a reflection, and on opposite ones for light that
+ * goes through; interpolated normals can claim otherwise. */
+static inline bool is_true_side(const surface *at, real3 wi, real3 wo, bool is_through)
+{
+    return (dot3(at->normal, wi) * dot3(at->normal, wo) > 0) != is_through;
+}
+
+/* One path per pixel of the tile, with its camera ray, into the first list. */
+void stage_generate(path_batch *batch, const path_context *c, tile where, uint32_t sample);
+
+/* The nearest surface of every path's ray. */
+void stage_trace(path_batch *batch, const path_context *c, path_list *list, bool is_first, path_counts *counts);
+
+/* The surfaces that paths have met: their emission is gathered, and those that scatter become vertices. */
+void stage_meet(path_batch *batch, const path_context *c, const path_list *list, bool is_last);
+
+/* Explicit light connection. */
+void stage_connect(path_batch *batch, const path_context *c, const path_list *list, uint32_t group,
+                   path_counts *counts);
+
+/* Extends paths by scattered rays, into the next list. */
+void stage_scatter(path_batch *batch, const path_context *c, const path_list *list, uint32_t n_events, uint32_t group,
+                   path_list *next);
+
+#ifdef __cplusplus
+}
+#endif
