@@ -10,10 +10,10 @@
 
 path_batch *path_batch_create(const scene *s)
 {
-    path_batch *batch = aligned_alloc(64, (sizeof *batch + 63) / 64 * 64);
+    path_batch *batch = aligned_alloc(64, (sizeof *batch + 63)/64*64);
     if (!batch) return NULL;
     memset(batch, 0, sizeof *batch); /* loops run over whole vectors, over lanes that nothing was put in */
-    batch->n_of_material = malloc((s->n_materials + 1) * sizeof *batch->n_of_material);
+    batch->n_of_material = malloc((s->n_materials + 1)*sizeof *batch->n_of_material);
     if (!batch->n_of_material) {
         free(batch);
         return NULL;
@@ -43,6 +43,13 @@ static void deposit(const path_batch *batch, const path_context *c, tile where, 
                 rgb[0] = rgb[1] = rgb[2] = 0;
             }
             film_add(to, x, y, rgb);
+            if (c->keeps_features) {
+                const feature_list *f = &batch->features;
+                const feature seen = {.albedo = {f->albedo.x[slot], f->albedo.y[slot], f->albedo.z[slot]},
+                                      .normal = {f->normal.x[slot], f->normal.y[slot], f->normal.z[slot]},
+                                      .distance = f->distance[slot]};
+                film_add_feature(to, x, y, &seen);
+            }
         }
 }
 
@@ -53,7 +60,7 @@ void path_batch_run(path_batch *batch, const path_context *c, tile where, uint32
     counts->n_paths += batch->lists[0].n;
     for (uint32_t event = 0; batch->lists[event & 1].n > 0; event++) {
         path_list *list = &batch->lists[event & 1], *next = &batch->lists[~event & 1];
-        const uint32_t group = 1 + event * GROUPS_PER_EVENT;
+        const uint32_t group = 1 + event*GROUPS_PER_EVENT;
         if (c->has_mixed_surfaces || event + 1 >= ROULETTE_START) {
             uint32_t *const u[3] = {batch->chance[0], batch->chance[1], batch->chance[2]};
             render_loops_chosen()->points(&c->sampler, list->n, list->pixel, list->index, group + GROUP_CHANCE, u);

@@ -27,6 +27,7 @@ typedef struct path_context {
     const light_set *lights;
     const surface_set *surfaces;
     sampler sampler;
+    bool keeps_features;             /* the film does */
     bool has_mixed_surfaces;         /* some material is part smooth interface, part opaque */
     const render_settings *settings; /* crop filled in */
 } path_context;
@@ -42,14 +43,15 @@ typedef struct tile {
     uint32_t x0, y0, x1, y1;
 } tile;
 
-#define TILE_SIZE 32
+/* A tile is a block of film_noise, so that its own error can end it. */
+#define TILE_SIZE FILM_BLOCK
 
 /* A thread's workspace for one tile's paths. */
 typedef struct path_batch path_batch;
 path_batch *path_batch_create(const scene *s);
 void path_batch_destroy(path_batch *batch);
 
-/* Adds sample number `sample` of every pixel of the tile to the film. */
+/* Adds sample number `sample` of every pixel of the tile to the film, and its features if the film keeps them. */
 void path_batch_run(path_batch *batch, const path_context *context, tile where, uint32_t sample, film *to,
                     path_counts *counts);
 

@@ -11,6 +11,7 @@
 #include "render/path.h"
 #include "render/surface.h"
 #include "render/thread_pool.h"
+#include "render/tile_plan.h"
 
 /* What a thread has to itself; padded so that two threads' counts do not share a cache line. */
 typedef struct worker {
@@ -21,10 +22,8 @@ typedef struct worker {
 
 typedef struct job {
     path_context context;
-    render_state *state;
-    uint32_t n_tiles_x, n_tiles;
-    uint32_t first_sample, n_share; /* the samples of each pixel that are to be rendered */
-    uint32_t target;                /* this pass ends when each pixel has so many */
+    tile_plan plan;
+    uint32_t target; /* this pass ends when each pixel has so many */
     worker *workers;
     uint32_t n_workers;
     uint64_t n_samples; /* of all pixels; atomic */
@@ -47,32 +46,21 @@ static double now(void)
     return read_clock(CLOCK_MONOTONIC);
 }
 
-static tile tile_at(const job *j, uint32_t piece)
-{
-    const uint32_t x0 = piece%j->n_tiles_x*TILE_SIZE, y0 = piece/j->n_tiles_x*TILE_SIZE;
-    const uint32_t w = (uint32_t)j->state->film.width, h = (uint32_t)j->state->film.height;
-    return (tile){x0, y0, x0 + TILE_SIZE < w ? x0 + TILE_SIZE : w, y0 + TILE_SIZE < h ? y0 + TILE_SIZE : h};
-}
-
-/* The samples that each pixel of a tile has. */
-static uint32_t tile_position(const job *j, tile where)
-{
-    const film *f = &j->state->film;
-    return f->pixels[where.y0*f->width + where.x0].n;
-}
-
-/* A thread_pool_job: all samples of this pass in one tile. */
+/* A thread_pool_job: the samples that a tile has not got yet, pass by pass, up to the end of this one. */
 static void run_tile(void *user, uint32_t piece, uint32_t thread)
 {
     job *j = user;
-    const tile where = tile_at(j, piece);
-    const uint32_t begin = tile_position(j, where);
+    const tile where = tile_plan_at(&j->plan, piece);
     worker *own = &j->workers[thread];
-    for (uint32_t i = begin; i < j->target; i++)
-        path_batch_run(own->batch, &j->context, where, j->first_sample + i, &j->state->film, &own->counts);
-    if (begin < j->target) {
+    uint32_t i = tile_plan_position(&j->plan, where);
+    while (i < j->target && !j->plan.is_done[piece]) {
+        const uint32_t begin = i, end = tile_plan_pass_end(&j->plan, i);
+        for (; i < end; i++)
+            path_batch_run(own->batch, &j->context, where, j->plan.first_sample + i, &j->plan.state->film,
+                           &own->counts);
+        tile_plan_judge(&j->plan, piece);
         const uint64_t n_pixels = (uint64_t)(where.x1 - where.x0)*(where.y1 - where.y0);
-        __atomic_fetch_add(&j->n_samples, n_pixels*(j->target - begin), __ATOMIC_RELAXED);
+        __atomic_fetch_add(&j->n_samples, n_pixels*(end - begin), __ATOMIC_RELAXED);
     }
 }
 
@@ -103,43 +91,18 @@ static void job_destroy(job *j)
     if (j->workers)
         for (uint32_t i = 0; i < j->n_workers; i++) path_batch_destroy(j->workers[i].batch);
     free(j->workers);
+    tile_plan_destroy(&j->plan);
     light_set_destroy((light_set *)j->context.lights);
     surface_set_destroy((surface_set *)j->context.surfaces);
     tracer_destroy((tracer *)j->context.tracer);
-}
-
-/* Makes an empty state's film, or takes the positions of a state's tiles. */
-static facet_status adopt_state(job *j, const render_settings *r, facet_error *why)
-{
-    film *f = &j->state->film;
-    if (!f->pixels) {
-        *j->state = (render_state){0};
-        return film_create(r->crop_w, r->crop_h, f);
-    }
-    if (f->width != r->crop_w || f->height != r->crop_h)
-        return facet_error_set(why, FACET_BAD_VALUE, "size", "%zux%zu is not the picture's %zux%zu", f->width,
-                               f->height, r->crop_w, r->crop_h);
-    for (uint32_t i = 0; i < j->n_tiles; i++) {
-        const tile where = tile_at(j, i);
-        const uint32_t position = tile_position(j, where);
-        bool is_even = position <= j->n_share;
-        for (uint32_t y = where.y0; y < where.y1; y++)
-            for (uint32_t x = where.x0; x < where.x1; x++) is_even &= f->pixels[y*f->width + x].n == position;
-        if (!is_even)
-            return facet_error_set(why, FACET_BAD_VALUE, "", "tile %u has not the samples that a render gives it", i);
-        j->n_samples += (uint64_t)position*(where.x1 - where.x0)*(where.y1 - where.y0);
-    }
-    return FACET_OK;
 }
 
 /* Acceleration structure, light tables, film and workspaces. */
 static facet_status job_create(const scene *s, const render_settings *r, uint32_t n_threads, render_state *state,
                                job *j, facet_error *why)
 {
-    *j = (job){.context = {.scene = s, .camera = &s->cameras[r->camera], .settings = r}, .state = state};
-    j->n_tiles_x = (uint32_t)((r->crop_w + TILE_SIZE - 1)/TILE_SIZE);
-    j->n_tiles = j->n_tiles_x*(uint32_t)((r->crop_h + TILE_SIZE - 1)/TILE_SIZE);
-    render_share(r->spp, r->shard, r->n_shards, &j->first_sample, &j->n_share);
+    *j = (job){
+        .context = {.scene = s, .camera = &s->cameras[r->camera], .settings = r, .keeps_features = r->keeps_features}};
     j->context.sampler = sampler_create(r->sampler, r->seed, r->spp);
     for (size_t i = 0; i < s->n_materials; i++)
         if (s->materials[i].transmission > 0) j->context.has_mixed_surfaces = true;
@@ -154,8 +117,9 @@ static facet_status job_create(const scene *s, const render_settings *r, uint32_
     j->context.surfaces = surfaces;
     j->context.tracer = built;
     if (status == FACET_OK) {
-        status = adopt_state(j, r, why);
+        status = tile_plan_create(r, state, &j->plan, why);
         state->isa = tracer_isa(built);
+        if (status == FACET_OK) j->n_samples = tile_plan_samples(&j->plan);
         j->workers = calloc(n_threads, sizeof *j->workers);
         if (!j->workers) status = FACET_NO_MEMORY;
         for (; status == FACET_OK && j->n_workers < n_threads; j->n_workers++)
@@ -165,14 +129,6 @@ static facet_status job_create(const scene *s, const render_settings *r, uint32_
     }
     if (status) job_destroy(j);
     return status;
-}
-
-/* Passes grow, so that the first pictures come soon and later ones waste no time on waiting for the last tile.  Their
- * ends depend on nothing but the samples done, so that a continued render looks at its noise where it would have. */
-static uint32_t pass_length(uint32_t n_done, uint32_t n_share)
-{
-    const uint32_t length = n_done < 4 ? 1 : n_done/4 < 16 ? n_done/4 : 16;
-    return length < n_share - n_done ? length : n_share - n_done;
 }
 
 /* Between two reports of progress [s]. */
@@ -187,7 +143,9 @@ typedef struct run {
     uint64_t n_samples;          /* of the calls before */
     double told, saved;          /* when progress was last reported and the state last saved */
     double noise;                /* negative while unknown */
-    bool is_wanted;              /* nobody has asked for the end */
+    uint64_t n_left;             /* samples that noise target and limit still ask for, when n_samples_then were done */
+    uint64_t n_samples_then;
+    bool is_wanted; /* nobody has asked for the end */
 } run;
 
 /* Asks for an early end if the progress callback does. */
@@ -196,21 +154,17 @@ static void tell(run *u)
     const render_settings *r = u->settings;
     u->told = now();
     if (!r->progress) return;
-    const uint64_t n_pixels = (uint64_t)r->crop_w*r->crop_h;
     const double elapsed = u->told - u->start, total = u->seconds + elapsed;
     render_progress p = {.samples_done = __atomic_load_n(&u->job->n_samples, __ATOMIC_RELAXED),
-                         .samples_total = n_pixels*u->job->n_share,
+                         .samples_total = u->n_samples_then + u->n_left,
                          .seconds = total,
                          .noise = u->noise,
                          .time_left = -1};
+    if (p.samples_done > p.samples_total) p.samples_total = p.samples_done;
     if (p.samples_done > u->n_samples && elapsed > 0) {
         p.samples_per_second = (double)(p.samples_done - u->n_samples)/elapsed;
         p.time_left = (double)(p.samples_total - p.samples_done)/p.samples_per_second;
         if (r->time_limit > 0) p.time_left = fmin(p.time_left, fmax(r->time_limit - total, 0));
-        if (r->noise_target > 0 && u->noise > 0) {
-            const double factor = u->noise/r->noise_target; /* the error falls with the square root of samples */
-            p.time_left = fmin(p.time_left, fmax(factor*factor - 1, 0)*total);
-        }
     }
     if (!r->progress(r->user, &p)) u->is_wanted = false;
 }
@@ -219,7 +173,7 @@ static void tell(run *u)
 static void collect(const run *u)
 {
     const job *j = u->job;
-    render_state *state = j->state;
+    render_state *state = j->plan.state;
     state->seconds = u->seconds + now() - u->start;
     state->cpu_seconds = u->cpu_seconds + read_clock(CLOCK_PROCESS_CPUTIME_ID) - u->start_cpu;
     for (uint32_t i = 0; i < j->n_workers; i++) {
@@ -238,7 +192,7 @@ static void save(run *u)
 {
     if (!u->settings->save) return;
     collect(u);
-    u->settings->save(u->settings->user, u->job->state);
+    u->settings->save(u->settings->user, u->job->plan.state);
     u->saved = now();
 }
 
@@ -247,61 +201,54 @@ static bool is_save_due(const run *u)
     return u->settings->save && now() - u->saved >= u->settings->save_interval;
 }
 
-/* Between which positions the tiles are. */
-static void find_positions(const job *j, uint32_t *least, uint32_t *most)
-{
-    *least = UINT32_MAX;
-    *most = 0;
-    for (uint32_t i = 0; i < j->n_tiles; i++) {
-        const uint32_t position = tile_position(j, tile_at(j, i));
-        *least = position < *least ? position : *least;
-        *most = position > *most ? position : *most;
-    }
-}
-
-/* Renders the tiles that are behind the target; true when all are there. */
+/* Renders the tiles that are behind the target; true when all are there or done. */
 static bool run_pass(run *u, thread_pool *pool)
 {
+    job *j = u->job;
     for (;;) {
-        uint32_t least, most;
-        find_positions(u->job, &least, &most);
-        if (least >= u->job->target) return true;
-        /* The first pass is finished, so that there is a whole picture; later ones need not be. */
-        if (!u->is_wanted && u->job->state->spp > 0) return false;
-        thread_pool_start(pool, run_tile, u->job, u->job->n_tiles);
+        const bool has_picture = j->plan.state->spp > 0; /* the first pass is finished, later ones need not be */
+        if (tile_plan_least(&j->plan) >= j->target) return true;
+        if (!u->is_wanted && has_picture) return false;
+        thread_pool_start(pool, run_tile, j, j->plan.n_tiles);
         while (!thread_pool_wait(pool, PROGRESS_INTERVAL)) {
             tell(u);
-            if ((!u->is_wanted && u->job->state->spp > 0) || is_save_due(u)) thread_pool_cancel(pool);
+            if ((!u->is_wanted && has_picture) || is_save_due(u)) thread_pool_cancel(pool);
         }
         if (is_save_due(u)) save(u);
     }
+}
+
+/* Brings what is known of the noise up to date, between passes. */
+static void look(run *u)
+{
+    tile_plan_end_pass(&u->job->plan);
+    u->noise = film_noise(&u->job->plan.state->film);
+    u->n_samples_then = u->job->n_samples;
+    u->n_left = tile_plan_samples_left(&u->job->plan);
 }
 
 /* Whether an end is reached between passes. */
 static bool is_over(const run *u)
 {
     const render_settings *r = u->settings;
-    const uint32_t spp = u->job->state->spp;
-    if (!u->is_wanted || spp == u->job->n_share) return true;
-    if (r->time_limit > 0 && spp > 0 && u->seconds + now() - u->start >= r->time_limit) return true;
-    return r->noise_target > 0 && u->noise >= 0 && spp >= 16 && u->noise <= r->noise_target;
+    const uint32_t spp = u->job->plan.state->spp;
+    if (!u->is_wanted || spp == u->job->plan.n_share || tile_plan_is_quiet(&u->job->plan)) return true;
+    return r->time_limit > 0 && spp > 0 && u->seconds + now() - u->start >= r->time_limit;
 }
 
 /* Runs passes until an end is reached. */
 static void run_passes(run *u, thread_pool *pool)
 {
-    job *j = u->job;
-    uint32_t least, most;
-    find_positions(j, &least, &most);
-    j->state->spp = 0;
-    for (uint32_t n; j->state->spp < least && j->state->spp + (n = pass_length(j->state->spp, j->n_share)) <= least;)
-        j->state->spp += n;
-    if (least == most) u->noise = film_noise(&j->state->film);
+    tile_plan *plan = &u->job->plan;
+    uint32_t *const spp = &plan->state->spp, least = tile_plan_least(plan), most = tile_plan_most(plan);
+    const uint32_t reached = least < most ? least : most;
+    for (*spp = 0; *spp < reached && tile_plan_pass_end(plan, *spp) <= reached;) *spp = tile_plan_pass_end(plan, *spp);
+    look(u);
     while (!is_over(u)) {
-        j->target = j->state->spp + pass_length(j->state->spp, j->n_share);
+        u->job->target = tile_plan_pass_end(plan, *spp);
         if (!run_pass(u, pool)) break;
-        j->state->spp = j->target;
-        u->noise = film_noise(&j->state->film);
+        *spp = u->job->target;
+        look(u);
         if (now() - u->told >= PROGRESS_INTERVAL) tell(u); /* short passes end before the wait does */
         if (is_save_due(u)) save(u);
     }
@@ -348,7 +295,7 @@ facet_status render_continue(const scene *s, const render_settings *settings, re
     status = render_develop(state, result, why);
     if (status == FACET_OK) {
         result->setup_seconds = start - begin;
-        result->is_complete = state->spp == j.n_share;
+        result->is_complete = state->spp == j.plan.n_share;
     }
     job_destroy(&j);
     return status;

@@ -27,7 +27,7 @@ typedef enum strategy { STRATEGY_MIS, STRATEGY_EXPLICIT, STRATEGY_IMPLICIT } str
 typedef enum sampler_kind { SAMPLER_SOBOL, SAMPLER_RANDOM } sampler_kind;
 
 typedef struct render_progress {
-    uint64_t samples_done, samples_total; /* pixel samples */
+    uint64_t samples_done, samples_total; /* pixel samples; the total as far as the noise target lets it be known */
     double seconds;                       /* since the start of rendering */
     double samples_per_second;
     double noise;     /* estimated relative standard error of the picture; negative while unknown */
@@ -48,10 +48,12 @@ typedef struct render_state {
     uint64_t n_paths, n_rays, n_shadow_rays;
     uint64_t n_bad; /* samples that were NaN or infinite */
     bad_sample bad[RENDER_MAX_REPORTED];
-    double seconds;     /* rendering alone, wall clock */
-    double cpu_seconds; /* of the whole process while rendering */
-    uint32_t spp;       /* whole passes over the picture, in samples per pixel; tiles may be further */
-    const char *isa;    /* what Embree used; static storage */
+    double seconds;        /* rendering alone, wall clock */
+    double cpu_seconds;    /* of the whole process while rendering */
+    double mean_luminance; /* of the picture when its noise was first estimated, which noise targets of tiles go by; 0
+                              before and without one */
+    uint32_t spp; /* whole passes over the picture, in samples per pixel; tiles may be further, or have ended before */
+    const char *isa; /* what Embree used; static storage */
 } render_state;
 
 typedef struct render_settings {
@@ -65,10 +67,12 @@ typedef struct render_settings {
     enum strategy strategy;
     sampler_kind sampler;
     uint32_t shard, n_shards; /* render the samples of the shard-th of n_shards, from 1; n_shards == 0: all of them */
-    const char *isa;     /* Embree's instruction set: "sse2", "sse4.2", "avx", "avx2", "avx512"; NULL: avx2 where there
+    const char *isa;   /* Embree's instruction set: "sse2", "sse4.2", "avx", "avx2", "avx512"; NULL: avx2 where there
                         is one, else the best, or none at all for a small scene ("any") */
-    double time_limit;   /* [s], with what a continued render took before; 0: none.  Checked between passes */
-    double noise_target; /* stop at this estimated relative error; 0: none */
+    double time_limit; /* [s], with what a continued render took before; 0: none.  Checked between passes */
+    double
+        noise_target; /* stop at this estimated relative error (film_noise), and leave tiles that have it before; 0: none */
+    bool keeps_features; /* albedo, normal and distance of what is seen first, beside the radiance */
     /* Called on the calling thread about ten times a second; false asks for an early end.  May be NULL. */
     bool (*progress)(void *user, const render_progress *state);
     /* Called on the calling thread every save_interval [s] and when rendering ends, while no thread works.  May be
@@ -82,7 +86,8 @@ void render_settings_defaults(render_settings *settings);
 
 typedef struct render_result {
     image picture;    /* F32 RGB, crop_w x crop_h, linear radiance */
-    uint32_t spp;     /* samples per pixel reached */
+    uint32_t spp;     /* samples per pixel reached, in tiles that did not end before */
+    double mean_spp;  /* of all pixels */
     bool is_complete; /* all of settings.spp; false after time, noise or a requested end */
     uint64_t n_paths, n_rays, n_shadow_rays;
     uint64_t n_bad; /* samples that were NaN or infinite */

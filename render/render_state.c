@@ -14,6 +14,7 @@ void render_share(uint32_t spp, uint32_t shard, uint32_t n_shards, uint32_t *fir
 facet_status render_develop(const render_state *state, render_result *result, facet_error *why)
 {
     render_result made = {.spp = state->spp,
+                          .mean_spp = film_mean_samples(&state->film),
                           .n_paths = state->n_paths,
                           .n_rays = state->n_rays,
                           .n_shadow_rays = state->n_shadow_rays,

@@ -18,7 +18,7 @@ static void choose_lights(const path_context *c, vertex_list *v, uint32_t group)
         *light = light_set_sample(c->lights, at->position, (const uint32_t[3]){u[0][k], u[1][k], u[2][k]});
         if (!(light->pdf > 0)) continue;
         const real3 wi = to_local(&at->shading, light->direction);
-        const bool is_through = at->transmits && wi.z * v->wo.z[k] < 0;
+        const bool is_through = at->transmits && wi.z*v->wo.z[k] < 0;
         if ((c->settings->strategy == STRATEGY_IMPLICIT && !light->is_delta) ||
             !is_true_side(at, light->direction, to_world(&at->shading, get3(&v->wo, k)), is_through)) {
             light->pdf = 0;
@@ -64,7 +64,7 @@ void stage_connect(path_batch *batch, const path_context *c, const path_list *li
         float weight = 1;
         if (!light->is_delta && c->settings->strategy == STRATEGY_MIS) weight = power_heuristic(light->pdf, v->pdf[k]);
         const uint32_t i = v->path[k];
-        set3(&s->radiance, n, mul3(get3(&list->throughput, i), mul3(f, scale3(weight / light->pdf, light->radiance))));
+        set3(&s->radiance, n, mul3(get3(&list->throughput, i), mul3(f, scale3(weight/light->pdf, light->radiance))));
         const real3 origin = surface_leave(&v->at[k], light->direction);
         const uint32_t seed = v->u[0][k] ^ v->u[1][k];
         if (light->is_infinite) set_ray(&s->ray, n, origin, light->direction, INFINITY, seed);

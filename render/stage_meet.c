@@ -23,7 +23,7 @@ static bool is_culled(const path_context *c, const hit *h, real3 direction)
     const real3 e1 = map_vector(in->to_world, sub3(vector_of(m->positions[i[1]]), p0));
     const real3 e2 = map_vector(in->to_world, sub3(vector_of(m->positions[i[2]]), p0));
     const float sign = map_determinant(in->to_world) < 0 ? -1.0f : 1.0f;
-    return sign * dot3(normal_of_edges(e1, e2), direction) > 0;
+    return sign*dot3(normal_of_edges(e1, e2), direction) > 0;
 }
 
 /* Sends a camera ray on through surfaces that are not drawn. */
@@ -74,6 +74,7 @@ static void gather_sky(path_batch *batch, const path_context *c, const path_list
 {
     const real3 direction = get3(&list->ray.direction, i);
     const real3 radiance = sky_radiance(light_set_sky(c->lights), direction);
+    if (c->keeps_features) feature_of_sky(batch, list, i, radiance);
     if (!(max_of3(radiance) > 0)) return;
     const bool is_lobe = list->origin[i] == FROM_LOBE;
     const float pdf = is_lobe ? light_set_pdf_of_sky(c->lights, get3(&list->previous, i), direction) : 0;
@@ -96,7 +97,7 @@ static void gather_emission(path_batch *batch, const path_context *c, const path
 static uint32_t sort_by_material(path_batch *batch, const path_context *c, const path_list *list)
 {
     uint32_t *const place = batch->n_of_material;
-    memset(place, 0, (c->scene->n_materials + 1) * sizeof *place);
+    memset(place, 0, (c->scene->n_materials + 1)*sizeof *place);
     for (uint32_t i = 0; i < list->n; i++) {
         if (batch->instance[i] == NO_HIT) {
             gather_sky(batch, c, list, i);
@@ -117,8 +118,8 @@ static uint32_t sort_by_material(path_batch *batch, const path_context *c, const
 static void expect(const path_batch *batch, const path_context *c, uint32_t k, uint32_t n)
 {
     enum { AHEAD = 8 };
-    if (k + 2 * AHEAD < n) {
-        const hit h = hit_at(batch, batch->order[k + 2 * AHEAD]);
+    if (k + 2*AHEAD < n) {
+        const hit h = hit_at(batch, batch->order[k + 2*AHEAD]);
         surface_expect_triangle(c->surfaces, &h);
     }
     if (k + AHEAD < n) {
@@ -142,6 +143,7 @@ void stage_meet(path_batch *batch, const path_context *c, const path_list *list,
         expect(batch, c, k, n_hits);
         surface_find(c->surfaces, &r, &h, wo, fraction(batch->chance[0][i]), &v->own[n], at);
         gather_emission(batch, c, list, i, at);
+        if (c->keeps_features) feature_of_surface(batch, list, i, at);
         if (!at->scatters || is_last) continue;
         set3(&v->wo, n, to_local(&at->shading, wo));
         v->path[n] = i;

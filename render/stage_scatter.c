@@ -38,10 +38,10 @@ static void sample(const path_context *c, vertex_list *v, uint32_t group)
 /* Russian roulette on the throughput; false if the path ends. */
 static bool survives(real3 *throughput, float eta_scale, uint32_t n_events, uint32_t chance)
 {
-    const float q = max_of3(*throughput) * eta_scale / ROULETTE_BELOW;
+    const float q = max_of3(*throughput)*eta_scale/ROULETTE_BELOW;
     if (n_events < ROULETTE_START || q >= 1) return true;
     if (fraction(chance) >= q) return false;
-    *throughput = scale3(1 / q, *throughput);
+    *throughput = scale3(1/q, *throughput);
     return true;
 }
 
@@ -53,6 +53,7 @@ void stage_scatter(path_batch *batch, const path_context *c, const path_list *li
     sample(c, v, group);
     uint32_t n = 0;
     for (uint32_t k = 0; k < v->n; k++) {
+        if (c->keeps_features) feature_of_scattering(batch, list, k);
         if (!(v->pdf[k] > 0)) continue;
         const surface *at = &v->at[k];
         const uint32_t i = v->path[k];
@@ -62,7 +63,7 @@ void stage_scatter(path_batch *batch, const path_context *c, const path_list *li
             continue;
         real3 throughput = mul3(get3(&list->throughput, i), get3(&v->f, k));
         if (!(max_of3(throughput) > 0)) continue;
-        const float eta_scale = list->eta_scale[i] * v->eta[k] * v->eta[k];
+        const float eta_scale = list->eta_scale[i]*v->eta[k]*v->eta[k];
         if (!survives(&throughput, eta_scale, n_events, batch->chance[1][i])) continue;
         set3(&next->throughput, n, throughput);
         set3(&next->previous, n, at->position);

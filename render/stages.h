@@ -21,8 +21,8 @@ enum { GROUP_CAMERA, GROUP_LIGHT, GROUP_SCATTER, GROUP_CHANCE, GROUPS_PER_EVENT 
 #define ROULETTE_BELOW 0.5f
 
 /* Arrays of a power of two would lie at equal offsets in their pages, and evict each other from the first cache. */
-enum { PATHS = TILE_SIZE * TILE_SIZE, ROOM = PATHS + 16 };
-_Static_assert(PATHS % LOOP_LANES == 0, "arrays hold whole vectors");
+enum { PATHS = TILE_SIZE*TILE_SIZE, ROOM = PATHS + 16 };
+_Static_assert(PATHS%LOOP_LANES == 0, "arrays hold whole vectors");
 
 /* What sent a ray. */
 typedef enum path_origin { FROM_CAMERA, FROM_DELTA, FROM_LOBE } path_origin;
@@ -74,9 +74,17 @@ typedef struct shadow_list {
     uint32_t is_blocked[ROOM];
 } shadow_list;
 
+/* What paths see first (film.h), by slot. */
+typedef struct feature_list {
+    vector_array albedo, normal;
+    float distance[ROOM];
+    bool is_known[ROOM]; /* albedo and normal are, and stay */
+} feature_list;
+
 struct path_batch {
     path_list lists[2];
     vector_array radiance; /* gathered so far, by slot */
+    feature_list features;
     float t[ROOM], u[ROOM], v[ROOM];
     uint32_t instance[ROOM], primitive[ROOM];
     uint32_t chance[3][ROOM];
@@ -139,8 +147,8 @@ static inline void add_radiance(path_batch *batch, uint32_t slot, real3 radiance
 /* The power heuristic for the technique with density a against the other with density b. */
 static inline float power_heuristic(float a, float b)
 {
-    const float ratio = b / a; /* squares of densities overflow, squares of their ratio do so harmlessly */
-    return 1 / (1 + ratio * ratio);
+    const float ratio = b/a; /* squares of densities overflow, squares of their ratio do so harmlessly */
+    return 1/(1 + ratio*ratio);
 }
 
 /* Vertices from `first` on that share a bsdf which batches serve: their number, 0 if the first is none. */
@@ -157,7 +165,7 @@ static inline uint32_t batch_from(const vertex_list *v, uint32_t first)
  * goes through; interpolated normals can claim otherwise. */
 static inline bool is_true_side(const surface *at, real3 wi, real3 wo, bool is_through)
 {
-    return (dot3(at->normal, wi) * dot3(at->normal, wo) > 0) != is_through;
+    return (dot3(at->normal, wi)*dot3(at->normal, wo) > 0) != is_through;
 }
 
 /* One path per pixel of the tile, with its camera ray, into the first list. */
@@ -176,6 +184,19 @@ void stage_connect(path_batch *batch, const path_context *c, const path_list *li
 /* Extends paths by scattered rays, into the next list. */
 void stage_scatter(path_batch *batch, const path_context *c, const path_list *list, uint32_t n_events, uint32_t group,
                    path_list *next);
+
+/* ---- Features: albedo and normal of the first surface that neither mirrors nor lets through all light unscattered, as
+ * seen in and through those that do; the distance of the first surface of all.  Only for films that keep them. ---- */
+
+/* Of paths that have just begun. */
+void feature_start(path_batch *batch, uint32_t n);
+
+/* Path i of the list has met the sky, or a surface. */
+void feature_of_sky(path_batch *batch, const path_list *list, uint32_t i, real3 radiance);
+void feature_of_surface(path_batch *batch, const path_list *list, uint32_t i, const surface *at);
+
+/* Vertex k has been given a direction. */
+void feature_of_scattering(path_batch *batch, const path_list *list, uint32_t k);
 
 #ifdef __cplusplus
 }
