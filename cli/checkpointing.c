@@ -17,7 +17,7 @@ void save_checkpoint(saver *to, const render_state *state)
     provenance p;
     const char *path = to->options->checkpoint;
     to->why = (facet_error){0};
-    provenance_collect(&p, to->options, to->scene, to->settings, state);
+    provenance_collect(&p, to->options, to->scene, to->settings, state, NULL);
     to->why.status = checkpoint_write(path, state, p.pairs, p.n_checkpoint, &to->why);
     if (to->why.status) warn("%s: %s; the render goes on", path, to->why.text);
     events_checkpoint(to->events, path, state, to->why.status == FACET_OK);
@@ -32,7 +32,7 @@ static int check_identity(const render_options *o, const scene *s, const render_
         .film = {.width = settings->crop_w ? settings->crop_w : settings->width,
                  .height = settings->crop_h ? settings->crop_h : settings->height},
     };
-    provenance_collect(&p, o, s, settings, &planned);
+    provenance_collect(&p, o, s, settings, &planned, NULL);
     return provenance_compare(o->resume, c, p.pairs, p.n, "this render has", false);
 }
 
@@ -55,6 +55,7 @@ int resume_checkpoint(render_options *o, const scene *s, render_settings *settin
     }
     if (checkpoint_read(o->resume, true, &c, &why)) return fail_with(FROM_INPUT, o->resume, &why);
     if (!settings->isa) settings->isa = static_isa(checkpoint_text(&c, "facet:isa"));
+    settings->keeps_features |= c.has_features;
     int status = check_identity(o, s, settings, &c);
     const char *line = checkpoint_text(&c, "facet:command");
     char *first_command = !status && line ? strdup(line) : NULL;

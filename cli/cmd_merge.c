@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "cli/commands.h"
+#include "cli/layers.h"
 #include "cli/provenance.h"
 #include "cli/render_job.h"
 #include "cli/report.h"
@@ -111,35 +112,45 @@ static int add_shard(const shard *s, render_state *sum)
     return 0;
 }
 
-static int write_merged(const render_options *o, const merging *m, const render_state *sum)
+static int write_merged(const render_options *o, const layer_choice *choice, const merging *m, const render_state *sum)
 {
     facet_error why = {0};
     render_result result = {0};
     provenance p;
+    picture_set pictures = {0};
     if (render_develop(sum, &result, &why)) return fail_with(FROM_INPUT, NULL, &why);
-    provenance_recollect(&p, o, &m->shards[0].head, sum);
-    const int status = write_outputs(o, &p, &result.picture);
+    int status = picture_set_create(o, choice, &sum->film, &result.picture, &pictures);
+    if (!status) {
+        provenance_recollect(&p, o, &m->shards[0].head, sum, pictures.denoiser);
+        status = write_outputs(o, &p, &pictures);
+    }
     for (size_t i = 0; i < o->outputs.n && !status && !o->quiet; i++)
         fprintf(stderr, "facet: wrote %s: %zux%zu, %" PRIu32 " spp of %zu shards\n", o->outputs.items[i],
                 result.picture.width, result.picture.height, result.spp, m->n);
+    picture_set_destroy(&pictures);
     render_result_destroy(&result);
     return status;
 }
 
 static int merge(const render_options *o, merging *m, const char *const *paths)
 {
-    int status = 0;
     render_state sum = {0};
+    layer_choice choice;
+    int status = choose_layers(o, &choice);
     for (; !status && m->n < MOST_SHARDS && paths[m->n]; m->n++) {
         status = read_shard(&m->shards[m->n], paths[m->n]);
         if (!status) status = check_shard(m, m->n);
     }
     for (size_t i = 0; !status && i < m->n; i++) status = check_finished(&m->shards[i]);
     if (!status) status = check_gaps(m);
+    if (!status && layers_need_features(&choice) && !m->shards[0].head.has_features)
+        status = fail(EXIT_INPUT, m->shards[0].path, NULL,
+                      "keeps no features for --aov and --denoise; render it with one of them");
     if (!status) status = check_outputs(o);
     for (size_t i = 0; !status && i < m->n; i++) status = add_shard(&m->shards[i], &sum);
-    if (!status) status = write_merged(o, m, &sum);
+    if (!status) status = write_merged(o, &choice, m, &sum);
     render_state_destroy(&sum);
+    layer_choice_destroy(&choice);
     return status;
 }
 
@@ -164,6 +175,11 @@ static int run(int argc, char **argv)
 static const option options[] = {
     {"output", 'o', OPTION_TEXTS, AT(outputs), "FILE",
      "picture to write, .exr (linear) or .png (as a screen shows it); may be repeated", 0, 0, NULL},
+    {"aov", 0, OPTION_TEXT, AT(aov), "LIST",
+     ".exr: further channels, of albedo, normal, distance, samples, noisy (see `facet render --help`)", 0, 0, NULL},
+    {"denoise", 0, OPTION_FLAG, AT(denoise), NULL, "remove the noise that is left by Intel Open Image Denoise", 0, 0,
+     NULL},
+    {"oidn", 0, OPTION_TEXT, AT(oidn), "FILE", "the denoiser's library (see `facet render --help`)", 0, 0, NULL},
     {"exposure", 0, OPTION_NUMBER, AT(exposure), "EV", ".png: brighten by 2^EV (default 0)", -50, 50, NULL},
     {"view", 0, OPTION_CHOICE, AT(view), NULL, ".png: how radiance becomes display values (default filmic)", 0, 0,
      "standard|filmic|agx"},

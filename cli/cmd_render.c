@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/events.h"
 #include "cli/interruption.h"
+#include "cli/layers.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
 #include "cli/render_job.h"
@@ -52,12 +53,13 @@ static int name_output(render_options *o)
 
 static void summarise(const render_options *o, const render_result *result)
 {
-    char time[32], noise[32] = "";
+    char time[32], noise[32] = "", mean[32] = "";
     format_duration(result->seconds, time, sizeof time);
     if (result->noise >= 0) snprintf(noise, sizeof noise, ", noise %.3g %%", 100*result->noise);
+    if (result->mean_spp < result->spp) snprintf(mean, sizeof mean, " (mean %.3g)", result->mean_spp);
     for (size_t i = 0; i < o->outputs.n; i++)
-        fprintf(stderr, "facet: wrote %s: %zux%zu, %" PRIu32 " spp, %s%s\n", o->outputs.items[i], result->picture.width,
-                result->picture.height, result->spp, time, noise);
+        fprintf(stderr, "facet: wrote %s: %zux%zu, %" PRIu32 " spp%s, %s%s\n", o->outputs.items[i],
+                result->picture.width, result->picture.height, result->spp, mean, time, noise);
 }
 
 /* How far an interrupted render came, and how to go on. */
@@ -70,8 +72,8 @@ static void tell_interruption(const render_options *o, const render_result *resu
 }
 
 /* What comes after rendering: warnings, files, the summary. */
-static int finish(const render_options *o, const saver *saved, const render_state *state, const render_result *result,
-                  warning_list *warnings)
+static int finish(const render_options *o, const layer_choice *choice, const saver *saved, const render_state *state,
+                  const render_result *result, warning_list *warnings)
 {
     if (result->n_bad)
         keep_warning(warnings,
@@ -82,8 +84,13 @@ static int finish(const render_options *o, const saver *saved, const render_stat
         keep_warning(warnings, "%" PRIu64 " samples were beyond a radiance of %.2g and count as that",
                      result->n_clamped, (double)FILM_MOST);
     provenance p;
-    provenance_collect(&p, o, saved->scene, saved->settings, state);
-    int status = write_outputs(o, &p, &result->picture);
+    picture_set pictures = {0};
+    int status = picture_set_create(o, choice, &state->film, &result->picture, &pictures);
+    if (!status) {
+        provenance_collect(&p, o, saved->scene, saved->settings, state, pictures.denoiser);
+        status = write_outputs(o, &p, &pictures);
+    }
+    picture_set_destroy(&pictures);
     if (!status && !o->quiet) summarise(o, result);
     if (saved->why.status) status = fail_with(FROM_OUTPUT, o->checkpoint, &saved->why);
     if (is_interrupted() && !o->quiet) tell_interruption(o, result);
@@ -94,7 +101,7 @@ static int finish(const render_options *o, const saver *saved, const render_stat
     return status ? status : is_interrupted() ? EXIT_INTERRUPTED : 0;
 }
 
-static int render_scene(render_options *o, warning_list *warnings)
+static int render_scene(render_options *o, const layer_choice *choice, warning_list *warnings)
 {
     facet_error why = {0};
     scene *s = NULL;
@@ -105,6 +112,7 @@ static int render_scene(render_options *o, warning_list *warnings)
     watch w = {.progress = progress_start(o->quiet), .events = warnings->events};
     int status = prepare_scene(o, warnings, &s, &i_camera);
     if (!status) status = prepare_settings(o, s, i_camera, &r);
+    if (!status) r.keeps_features = layers_need_features(choice);
     if (!status && o->resume) status = resume_checkpoint(o, s, &r, &state);
     if (!status) {
         r.progress = on_progress;
@@ -119,7 +127,7 @@ static int render_scene(render_options *o, warning_list *warnings)
         if (failed && state.film.pixels && !o->isa && strcmp(why.place, "isa") == 0)
             status = fail(EXIT_INPUT, o->resume, NULL, "was made with --isa %s, which this processor lacks", r.isa);
         else if (failed) status = fail_with(FROM_INPUT, o->scene_path, &why);
-        else status = finish(o, &w.saver, &state, &result, warnings);
+        else status = finish(o, choice, &w.saver, &state, &result, warnings);
     }
     events_done(warnings->events, o, &result, status);
     render_result_destroy(&result);
@@ -145,6 +153,7 @@ static void warn_of_useless(const render_options *o, warning_list *warnings)
 {
     size_t n_png = 0;
     for (size_t i = 0; i < o->outputs.n; i++) n_png += has_extension(o->outputs.items[i], "png");
+    if (o->aov && n_png == o->outputs.n) keep_warning(warnings, "--aov has no effect: no output is an .exr file");
     if (o->half && n_png == o->outputs.n) keep_warning(warnings, "--half has no effect: no output is an .exr file");
     if (o->exposure.is_given && n_png == 0)
         keep_warning(warnings, "--exposure has no effect: .exr files keep the scene's own radiance");
@@ -168,10 +177,13 @@ static int run(int argc, char **argv)
     if (!status) status = check_outputs(&o);
     if (!status) status = check_checkpointing(&o);
     if (!status) status = events_open(&events, o.events);
+    layer_choice choice = {0};
+    if (!status) status = choose_layers(&o, &choice);
     if (!status) {
         warn_of_useless(&o, &warnings);
-        status = render_scene(&o, &warnings);
+        status = render_scene(&o, &choice, &warnings);
     }
+    layer_choice_destroy(&choice);
     events_close(&events);
     warning_list_destroy(&warnings);
     free(o.default_output);
@@ -200,7 +212,17 @@ static const option options[] = {
     {"seed", 0, OPTION_INTEGER, AT(seed), "N", "seed of the samples (default 0)", 0, UINT32_MAX, NULL},
     {"crop", 0, OPTION_RECT, AT(crop), "X,Y,W,H", "render only this part of the picture [pixel]", 0, 0, NULL},
     {"time", 0, OPTION_NUMBER, AT(time), "SECONDS", "stop after this time", 1e-3, 1e9, NULL},
-    {"noise", 0, OPTION_NUMBER, AT(noise), "TARGET", "stop at this estimated relative error, such as 0.01", 1e-6, 1,
+    {"noise", 0, OPTION_NUMBER, AT(noise), "TARGET",
+     "stop at this estimated relative error, such as 0.01, and leave parts of the picture that have it before", 1e-6, 1,
+     NULL},
+    {"aov", 0, OPTION_TEXT, AT(aov), "LIST",
+     ".exr: further channels, of albedo, normal, distance [m], samples (how many a pixel has) and noisy (the picture "
+     "before --denoise), with commas",
+     0, 0, NULL},
+    {"denoise", 0, OPTION_FLAG, AT(denoise), NULL, "remove the noise that is left by Intel Open Image Denoise", 0, 0,
+     NULL},
+    {"oidn", 0, OPTION_TEXT, AT(oidn), "FILE",
+     "the denoiser's library, libOpenImageDenoise.so.2 (default: $FACET_OIDN, else where the system finds it)", 0, 0,
      NULL},
     {"material", 0, OPTION_TEXTS, AT(materials), "NAME='SPEC'",
      "give the scene's material NAME another reflection, such as body='ggx alpha=.2'; may be repeated", 0, 0, NULL},

@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "cli/json_writer.h"
+#include "cli/layers.h"
 #include "cli/provenance.h"
 #include "cli/render_job.h"
 #include "cli/report.h"
@@ -82,16 +83,16 @@ static int write_png(const char *path, const render_options *o, const image *pic
     return status ? fail_with(FROM_OUTPUT, path, &why) : 0;
 }
 
-int write_outputs(const render_options *o, const provenance *p, const image *picture)
+int write_outputs(const render_options *o, const provenance *p, const picture_set *pictures)
 {
     int status = 0;
     for (size_t i = 0; i < o->outputs.n; i++) {
         const char *path = o->outputs.items[i];
         int failed = 0;
         facet_error why = {0};
-        if (has_extension(path, "png")) failed = write_png(path, o, picture, p);
-        else if (exr_write(path, picture, o->half ? EXR_HALF : EXR_FLOAT, p->pairs, p->n_exr, p->world_to_camera,
-                           p->world_to_ndc, &why))
+        if (has_extension(path, "png")) failed = write_png(path, o, pictures->shown, p);
+        else if (exr_write_layers(path, pictures->layers, pictures->n_layers, p->pairs, p->n_exr, p->world_to_camera,
+                                  p->world_to_ndc, &why))
             failed = fail_with(FROM_OUTPUT, path, &why);
         if (failed) status = failed;
     }
@@ -110,6 +111,7 @@ void print_render_json(const render_options *o, const render_settings *settings,
     json_put_integer(&j, "width", result->picture.width);
     json_put_integer(&j, "height", result->picture.height);
     json_put_integer(&j, "spp", result->spp);
+    json_put_number(&j, "mean_spp", result->mean_spp);
     json_put_integer(&j, "seed", settings->seed);
     json_put_bool(&j, "complete", result->is_complete);
     json_put_bool(&j, "interrupted", is_interrupted);

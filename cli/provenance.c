@@ -41,12 +41,13 @@ static void read_matrix(const char *text, float m[16])
 }
 
 /* What a render reaches, and what every continuation of it changes. */
-static void add_figures(provenance *p, const render_state *state)
+static void add_figures(provenance *p, const render_state *state, const char *denoiser)
 {
     add_printed(p, "facet:spp", "%" PRIu32, state->spp);
     add_printed(p, "facet:time_seconds", "%.3f", state->seconds);
     add_printed(p, "facet:clamped", "%" PRIu64, state->film.n_clamped);
     add_printed(p, "facet:dropped", "%" PRIu64, state->n_bad);
+    if (denoiser) add_text(p, "facet:denoiser", denoiser);
 }
 
 static void add_matrices_and_view(provenance *p, const render_options *o)
@@ -59,7 +60,7 @@ static void add_matrices_and_view(provenance *p, const render_options *o)
 }
 
 void provenance_collect(provenance *p, const render_options *o, const scene *s, const render_settings *settings,
-                        const render_state *state)
+                        const render_state *state, const char *denoiser)
 {
     const camera *c = &s->cameras[settings->camera];
     p->n = 0;
@@ -74,11 +75,12 @@ void provenance_collect(provenance *p, const render_options *o, const scene *s, 
     add_text(p, "facet:strategy", o->strategy);
     add_text(p, "facet:sampler", o->sampler);
     add_printed(p, "facet:depth", "%" PRIu32, settings->depth);
+    add_text(p, "facet:features", settings->keeps_features ? "kept" : "not kept");
     add_text(p, "facet:camera", c->name);
     add_printed(p, "facet:size", "%zux%zu", settings->width, settings->height);
     add_printed(p, "facet:crop", "%zu,%zu,%zu,%zu", settings->crop_x, settings->crop_y, state->film.width,
                 state->film.height);
-    add_figures(p, state);
+    add_figures(p, state, denoiser);
     camera_matrices(c, settings->width, settings->height, p->world_to_camera, p->world_to_ndc);
     add_matrices_and_view(p, o);
 }
@@ -99,6 +101,7 @@ static const struct {
     {"facet:sampler", "--sampler"},
     {"facet:depth", "--depth"},
     {"facet:isa", "--isa"},
+    {"facet:features", "features (--aov, --denoise)"},
     {"facet:shard", "--shard"},
     {"facet:world_to_camera", "a camera at"},
     {"facet:world_to_ndc", "a camera of"},
@@ -138,7 +141,8 @@ static bool is_of_all(const char *key)
     return strncmp(key, "facet:world_to_", 15) == 0;
 }
 
-void provenance_recollect(provenance *p, const render_options *o, const checkpoint *c, const render_state *state)
+void provenance_recollect(provenance *p, const render_options *o, const checkpoint *c, const render_state *state,
+                          const char *denoiser)
 {
     p->n = 0;
     for (size_t i = 0; i < N_IDENTITY; i++)
@@ -146,7 +150,7 @@ void provenance_recollect(provenance *p, const render_options *o, const checkpoi
     add_text(p, "facet:command", o->command_line);
     add_text(p, "facet:shard_command", find_text(c->texts, c->n_texts, "facet:command"));
     add_text(p, "facet:shard", "1/1");
-    add_figures(p, state);
+    add_figures(p, state, denoiser);
     read_matrix(find_text(c->texts, c->n_texts, "facet:world_to_camera"), p->world_to_camera);
     read_matrix(find_text(c->texts, c->n_texts, "facet:world_to_ndc"), p->world_to_ndc);
     add_matrices_and_view(p, o);

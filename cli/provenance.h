@@ -22,12 +22,13 @@ typedef struct provenance {
     float world_to_camera[16], world_to_ndc[16];
 } provenance;
 
-/* The texts borrow from all three. */
+/* The texts borrow from all of them.  denoiser: what the pictures went through, or NULL. */
 void provenance_collect(provenance *p, const render_options *o, const scene *s, const render_settings *settings,
-                        const render_state *state);
+                        const render_state *state, const char *denoiser);
 
 /* The same for a checkpoint's render, with the figures of another state: that of all shards. */
-void provenance_recollect(provenance *p, const render_options *o, const checkpoint *c, const render_state *state);
+void provenance_recollect(provenance *p, const render_options *o, const checkpoint *c, const render_state *state,
+                          const char *denoiser);
 
 /* Refuses checkpoint `path` if it was made by another render than the texts say, `other` saying whose these are: "this
  * render has".  any_shard: of the same render, but perhaps another shard.  Returns 0 or the exit status. */

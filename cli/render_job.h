@@ -18,8 +18,9 @@ typedef struct render_options {
     size_t size[2], crop[4];
     const char *camera, *env, *strategy, *sampler, *isa, *view;
     const char *checkpoint, *resume, *shard, *events;
+    const char *aov, *oidn;
     option_number env_scale, time, noise, exposure, checkpoint_interval;
-    bool half, quiet, json;
+    bool half, quiet, json, denoise;
     /* what the command line as a whole leads to */
     const char *scene_path; /* NULL: the demo scene */
     char *default_output;   /* owned; NULL when outputs were named */
@@ -60,7 +61,8 @@ int check_checkpoint(const char *path);
 
 /* Writes all outputs with their provenance.  One that fails does not keep the others from being written. */
 struct provenance;
-int write_outputs(const render_options *o, const struct provenance *p, const image *picture);
+struct picture_set;
+int write_outputs(const render_options *o, const struct provenance *p, const struct picture_set *pictures);
 
 /* The render's summary as one JSON object on stdout. */
 void print_render_json(const render_options *o, const render_settings *settings, const render_result *result,

@@ -11,9 +11,10 @@
 #include "io/file.h"
 
 enum {
-    VERSION = 1,
-    HEAD_SIZE = 8 + 4*5 + 8*7 + 12*RENDER_MAX_REPORTED,
+    VERSION = 2,
+    HEAD_SIZE = 8 + 4*6 + 8*8 + 12*RENDER_MAX_REPORTED,
     PIXEL_SIZE = 4*16 + 4,
+    FEATURES_SIZE = 6*8 + 16 + 4,
     CRC_SIZE = 4,
     TEXT_CAP = 1 << 20, /* bytes of all texts */
     SIDE_CAP = 65536
@@ -72,6 +73,7 @@ static void put_head(unsigned char *to, const render_state *state, uint32_t text
     put32(&to, text_size);
     put32(&to, (uint32_t)state->film.width);
     put32(&to, (uint32_t)state->film.height);
+    put32(&to, state->film.features != NULL);
     put32(&to, state->spp);
     put64(&to, state->n_paths);
     put64(&to, state->n_rays);
@@ -80,6 +82,7 @@ static void put_head(unsigned char *to, const render_state *state, uint32_t text
     put64(&to, state->film.n_clamped);
     put_double(&to, state->seconds);
     put_double(&to, state->cpu_seconds);
+    put_double(&to, state->mean_luminance);
     for (int i = 0; i < RENDER_MAX_REPORTED; i++) {
         put32(&to, state->bad[i].x);
         put32(&to, state->bad[i].y);
@@ -87,13 +90,15 @@ static void put_head(unsigned char *to, const render_state *state, uint32_t text
     }
 }
 
-/* Behind the magic and the version; returns the size of the texts. */
-static uint32_t get_head(const unsigned char *from, render_state *state)
+/* Behind the magic and the version. */
+static void get_head(const unsigned char *from, checkpoint *c, uint32_t *text_size)
 {
+    render_state *state = &c->state;
     *state = (render_state){0};
-    const uint32_t text_size = get32(&from);
+    *text_size = get32(&from);
     state->film.width = get32(&from);
     state->film.height = get32(&from);
+    c->has_features = get32(&from) != 0;
     state->spp = get32(&from);
     state->n_paths = get64(&from);
     state->n_rays = get64(&from);
@@ -102,39 +107,66 @@ static uint32_t get_head(const unsigned char *from, render_state *state)
     state->film.n_clamped = get64(&from);
     state->seconds = get_double(&from);
     state->cpu_seconds = get_double(&from);
+    state->mean_luminance = get_double(&from);
     for (int i = 0; i < RENDER_MAX_REPORTED; i++) {
         state->bad[i].x = get32(&from);
         state->bad[i].y = get32(&from);
         state->bad[i].sample = get32(&from);
     }
-    return text_size;
+}
+
+static size_t row_size(size_t width, bool has_features)
+{
+    return width*(PIXEL_SIZE + (has_features ? FEATURES_SIZE : 0));
+}
+
+static void put_sum(unsigned char **to, exact_sum sum)
+{
+    put64(to, sum.low);
+    put64(to, sum.high);
+}
+
+static exact_sum get_sum(const unsigned char **from)
+{
+    const uint64_t low = get64(from);
+    return (exact_sum){low, get64(from)};
+}
+
+static void put_features(unsigned char **to, const film_features *p)
+{
+    for (int k = 0; k < 3; k++) put64(to, (uint64_t)p->albedo[k]);
+    for (int k = 0; k < 3; k++) put64(to, (uint64_t)p->normal[k]);
+    put_sum(to, p->distance);
+    put32(to, p->n_hits);
+}
+
+static void get_features(const unsigned char **from, film_features *p)
+{
+    for (int k = 0; k < 3; k++) p->albedo[k] = (int64_t)get64(from);
+    for (int k = 0; k < 3; k++) p->normal[k] = (int64_t)get64(from);
+    p->distance = get_sum(from);
+    p->n_hits = get32(from);
 }
 
 static void put_row(unsigned char *to, const film *f, size_t y)
 {
-    for (size_t x = 0; x < f->width; x++) {
-        const film_pixel *p = &f->pixels[y*f->width + x];
-        for (int k = 0; k < 3; k++) {
-            put64(&to, p->rgb[k].low);
-            put64(&to, p->rgb[k].high);
-        }
-        put64(&to, p->luminance_squares.low);
-        put64(&to, p->luminance_squares.high);
+    for (size_t i = y*f->width; i < (y + 1)*f->width; i++) {
+        const film_pixel *p = &f->pixels[i];
+        for (int k = 0; k < 3; k++) put_sum(&to, p->rgb[k]);
+        put_sum(&to, p->luminance_squares);
         put32(&to, p->n);
+        if (f->features) put_features(&to, &f->features[i]);
     }
 }
 
 static void get_row(const unsigned char *from, film *f, size_t y)
 {
-    for (size_t x = 0; x < f->width; x++) {
-        film_pixel *p = &f->pixels[y*f->width + x];
-        for (int k = 0; k < 3; k++) {
-            p->rgb[k].low = get64(&from);
-            p->rgb[k].high = get64(&from);
-        }
-        p->luminance_squares.low = get64(&from);
-        p->luminance_squares.high = get64(&from);
+    for (size_t i = y*f->width; i < (y + 1)*f->width; i++) {
+        film_pixel *p = &f->pixels[i];
+        for (int k = 0; k < 3; k++) p->rgb[k] = get_sum(&from);
+        p->luminance_squares = get_sum(&from);
         p->n = get32(&from);
+        if (f->features) get_features(&from, &f->features[i]);
     }
 }
 
@@ -169,7 +201,7 @@ facet_status checkpoint_write(const char *path, const render_state *state, const
     const film *f = &state->film;
     size_t text_size;
     unsigned char head[HEAD_SIZE];
-    unsigned char *text_bytes = join_texts(texts, n_texts, &text_size), *row = malloc(f->width*PIXEL_SIZE);
+    unsigned char *text_bytes = join_texts(texts, n_texts, &text_size), *row = malloc(row_size(f->width, f->features));
     uLong crc = crc32(0, NULL, 0);
     file_writer writer;
     facet_status status = FACET_OK;
@@ -183,7 +215,7 @@ facet_status checkpoint_write(const char *path, const render_state *state, const
         write_part(writer.stream, text_bytes, text_size, &crc);
         for (size_t y = 0; y < f->height && !ferror(writer.stream); y++) {
             put_row(row, f, y);
-            write_part(writer.stream, row, f->width*PIXEL_SIZE, &crc);
+            write_part(writer.stream, row, row_size(f->width, f->features), &crc);
         }
         status = file_writer_commit(&writer, why);
     }
@@ -224,14 +256,14 @@ static facet_status read_head(FILE *stream, uint64_t size, checkpoint *c, uint32
     rewind(stream);
     const facet_status status = read_part(stream, "head", head, sizeof head, crc, why);
     if (status) return status;
-    *text_size = get_head(version, &c->state);
+    get_head(version, c, text_size);
     const film *f = &c->state.film;
     if (f->width < 1 || f->height < 1 || f->width > SIDE_CAP || f->height > SIDE_CAP ||
         f->width > IMAGE_PIXEL_CAP/f->height || *text_size > TEXT_CAP)
         return facet_error_set(why, FACET_UNSUPPORTED, "", "is of a picture of %zux%zu pixels, which is too large",
                                f->width, f->height);
     const uint64_t expected = HEAD_SIZE + CRC_SIZE + *text_size + CRC_SIZE +
-                              f->height*((uint64_t)f->width*PIXEL_SIZE + CRC_SIZE);
+                              f->height*(row_size(f->width, c->has_features) + CRC_SIZE);
     if (size != expected)
         return facet_error_set(why, FACET_BAD_FILE, "",
                                "is damaged: it has %" PRIu64 " bytes in place of %" PRIu64
@@ -259,9 +291,10 @@ static facet_status read_film(FILE *stream, checkpoint *c, uLong *crc, facet_err
 {
     film *f = &c->state.film;
     const uint64_t n_clamped = f->n_clamped;
-    const size_t size = f->width*PIXEL_SIZE;
+    const size_t size = row_size(f->width, c->has_features);
     unsigned char *row = malloc(size);
     facet_status status = film_create(f->width, f->height, f);
+    if (!status && c->has_features) status = film_keep_features(f);
     f->n_clamped = n_clamped;
     if (!row || status) status = facet_error_set(why, FACET_NO_MEMORY, "", "no memory for its pixels");
     for (size_t y = 0; y < f->height && status == FACET_OK; y++) {

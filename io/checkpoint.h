@@ -19,7 +19,8 @@ extern "C" {
 
 typedef struct checkpoint {
     render_state state; /* isa is NULL */
-    image_text *texts;  /* [n_texts], into text_bytes */
+    bool has_features;
+    image_text *texts; /* [n_texts], into text_bytes */
     size_t n_texts;
     char *text_bytes;
 } checkpoint;

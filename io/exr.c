@@ -499,11 +499,40 @@ facet_status exr_decode(const unsigned char *bytes, size_t size, image *picture,
 
 /* ---- Writing ----------------------------------------------------------------------------------- */
 
-/* Names of the channels by their number, which makes channel c of the picture. */
-static const char *channel_name(size_t n_channels, size_t c)
+/* What is written: channels of pictures that have the same size. */
+typedef struct channel {
+    const char *name;
+    const float *first; /* its value in the first pixel */
+    size_t stride;      /* [float] to the next pixel */
+    exr_precision precision;
+} channel;
+
+typedef struct channel_list {
+    channel items[4*EXR_MOST_LAYERS];
+    size_t n;
+    size_t width, height;
+} channel_list;
+
+static size_t bytes_of(exr_precision precision)
 {
-    static const char *const NAMES[5][4] = {{NULL}, {"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
-    return NAMES[n_channels][c];
+    return precision == EXR_HALF ? 2 : 4;
+}
+
+static exr_pixel_type_t type_of(exr_precision precision)
+{
+    return precision == EXR_HALF ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
+}
+
+static channel_list list_channels(const exr_layer *layers, size_t n_layers)
+{
+    channel_list list = {.width = layers[0].picture->width, .height = layers[0].picture->height};
+    for (size_t i = 0; i < n_layers; i++) {
+        const image *p = layers[i].picture;
+        for (size_t c = 0; c < p->n_channels; c++)
+            list.items[list.n++] = (channel){layers[i].channels[c], (const float *)p->pixels + c, p->n_channels,
+                                             layers[i].precision};
+    }
+    return list;
 }
 
 static exr_result_t set_attributes(exr_context_t context, const image_text *text, size_t n_texts,
@@ -526,9 +555,8 @@ static exr_result_t set_attributes(exr_context_t context, const image_text *text
     return code;
 }
 
-static exr_result_t write_header(exr_context_t context, const image *picture, exr_precision precision,
-                                 const image_text *text, size_t n_texts, const float *world_to_camera,
-                                 const float *world_to_ndc)
+static exr_result_t write_header(exr_context_t context, const channel_list *list, const image_text *text,
+                                 size_t n_texts, const float *world_to_camera, const float *world_to_ndc)
 {
     int part = 0;
     bool has_long_name = false;
@@ -540,13 +568,12 @@ static exr_result_t write_header(exr_context_t context, const image *picture, ex
         code = exr_add_part(context, NULL, EXR_STORAGE_SCANLINE, &part);
     }
     if (code == EXR_ERR_SUCCESS) {
-        code = exr_initialize_required_attr_simple(context, part, (int32_t)picture->width, (int32_t)picture->height,
+        code = exr_initialize_required_attr_simple(context, part, (int32_t)list->width, (int32_t)list->height,
                                                    EXR_COMPRESSION_ZIP);
     }
-    for (size_t c = 0; c < picture->n_channels && code == EXR_ERR_SUCCESS; c++) {
-        code = exr_add_channel(context, part, channel_name(picture->n_channels, c),
-                               precision == EXR_HALF ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT, EXR_PERCEPTUALLY_LOGARITHMIC,
-                               1, 1);
+    for (size_t c = 0; c < list->n && code == EXR_ERR_SUCCESS; c++) {
+        code = exr_add_channel(context, part, list->items[c].name, type_of(list->items[c].precision),
+                               EXR_PERCEPTUALLY_LOGARITHMIC, 1, 1);
     }
     if (code == EXR_ERR_SUCCESS) {
         code = set_attributes(context, text, n_texts, world_to_camera, world_to_ndc);
@@ -554,40 +581,46 @@ static exr_result_t write_header(exr_context_t context, const image *picture, ex
     return code == EXR_ERR_SUCCESS ? exr_write_header(context) : code;
 }
 
-/* Rows y to y + n_rows of the picture, as [channel][row][column] of half or float in host order. */
-static void gather_rows(const image *picture, exr_precision precision, size_t y, size_t n_rows, unsigned char *block)
+/* A channel's rows from y on, as half or float in host order. */
+static void gather_rows(const channel *c, size_t width, size_t y, size_t n_rows, unsigned char *to)
 {
-    const size_t n = picture->n_channels, count = n_rows*picture->width, size = precision == EXR_HALF ? 2 : 4;
-    const float *from = (const float *)picture->pixels + y*picture->width*n;
-    for (size_t c = 0; c < n; c++) {
-        unsigned char *to = block + c*count*size;
-        for (size_t i = 0; i < count; i++) {
-            const uint16_t half = (uint16_t)half_of_float(from[i*n + c]);
-            memcpy(to + i*size, precision == EXR_HALF ? (const void *)&half : (const void *)&from[i*n + c], size);
-        }
+    const size_t size = bytes_of(c->precision);
+    const float *from = c->first + y*width*c->stride;
+    for (size_t i = 0; i < n_rows*width; i++, from += c->stride) {
+        const uint16_t half = (uint16_t)half_of_float(*from);
+        memcpy(to + i*size, c->precision == EXR_HALF ? (const void *)&half : (const void *)from, size);
     }
 }
 
-/* Tells the library where the channels lie in the block. */
-static void point_channels(exr_encode_pipeline_t *encode, const image *picture, exr_precision precision, size_t n_rows,
-                           const unsigned char *block)
+/* Lays out rows of all channels in the block, and tells the library where they lie. */
+static void gather_block(exr_encode_pipeline_t *encode, const channel_list *list, size_t y, size_t n_rows,
+                         unsigned char *block)
 {
-    const size_t size = precision == EXR_HALF ? 2 : 4;
-    for (size_t c = 0; c < picture->n_channels; c++) {
+    for (size_t c = 0; c < list->n; c++) {
+        const channel *from = &list->items[c];
+        const size_t size = bytes_of(from->precision);
+        gather_rows(from, list->width, y, n_rows, block);
         for (int k = 0; k < encode->channel_count; k++) { /* the library keeps them sorted by name */
             exr_coding_channel_info_t *info = &encode->channels[k];
-            if (strcmp(info->channel_name, channel_name(picture->n_channels, c)) == 0) {
-                info->encode_from_ptr = block + c*n_rows*picture->width*size;
-                info->user_pixel_stride = (int32_t)size;
-                info->user_line_stride = (int32_t)(picture->width*size);
-                info->user_bytes_per_element = (int16_t)size;
-                info->user_data_type = precision == EXR_HALF ? EXR_PIXEL_HALF : EXR_PIXEL_FLOAT;
-            }
+            if (strcmp(info->channel_name, from->name) != 0) continue;
+            info->encode_from_ptr = block;
+            info->user_pixel_stride = (int32_t)size;
+            info->user_line_stride = (int32_t)(list->width*size);
+            info->user_bytes_per_element = (int16_t)size;
+            info->user_data_type = type_of(from->precision);
         }
+        block += n_rows*list->width*size;
     }
 }
 
-static exr_result_t write_pixels(exr_context_t context, const image *picture, exr_precision precision)
+static size_t row_size(const channel_list *list)
+{
+    size_t size = 0;
+    for (size_t c = 0; c < list->n; c++) size += list->width*bytes_of(list->items[c].precision);
+    return size;
+}
+
+static exr_result_t write_pixels(exr_context_t context, const channel_list *list)
 {
     int32_t lines = 0;
     exr_result_t code = exr_get_scanlines_per_chunk(context, 0, &lines);
@@ -595,11 +628,11 @@ static exr_result_t write_pixels(exr_context_t context, const image *picture, ex
         return code;
     }
     const size_t step = (size_t)lines;
-    unsigned char *block = malloc(step*picture->width*picture->n_channels*(precision == EXR_HALF ? 2 : 4));
+    unsigned char *block = malloc(step*row_size(list));
     exr_encode_pipeline_t encode = EXR_ENCODE_PIPELINE_INITIALIZER;
     code = block ? EXR_ERR_SUCCESS : EXR_ERR_OUT_OF_MEMORY;
-    for (size_t y = 0; y < picture->height && code == EXR_ERR_SUCCESS; y += step) {
-        const size_t n_rows = picture->height - y < step ? picture->height - y : step;
+    for (size_t y = 0; y < list->height && code == EXR_ERR_SUCCESS; y += step) {
+        const size_t n_rows = list->height - y < step ? list->height - y : step;
         exr_chunk_info_t chunk = {0};
         code = exr_write_scanline_chunk_info(context, 0, (int)y, &chunk);
         const bool is_first = !encode.context;
@@ -608,8 +641,7 @@ static exr_result_t write_pixels(exr_context_t context, const image *picture, ex
                             : exr_encoding_update(context, 0, &chunk, &encode);
         }
         if (code == EXR_ERR_SUCCESS) {
-            gather_rows(picture, precision, y, n_rows, block);
-            point_channels(&encode, picture, precision, n_rows, block);
+            gather_block(&encode, list, y, n_rows, block);
             code = is_first ? exr_encoding_choose_default_routines(context, 0, &encode) : code;
         }
         if (code == EXR_ERR_SUCCESS) {
@@ -623,14 +655,24 @@ static exr_result_t write_pixels(exr_context_t context, const image *picture, ex
     return code;
 }
 
-static facet_status check_arguments(const image *picture, const image_text *text, size_t n_texts, facet_error *why)
+static facet_status check_layers(const exr_layer *layers, size_t n_layers, facet_error *why)
 {
-    if (!picture || !picture->pixels || picture->type != PIXEL_F32 || picture->n_channels < 1 ||
-        picture->n_channels > 4 || picture->width < 1 || picture->height < 1 ||
-        picture->width > IMAGE_PIXEL_CAP/picture->height || (n_texts > 0 && !text)) {
-        return facet_error_set(why, FACET_BAD_ARGUMENT, "",
-                               "OpenEXR is written from 1 to 4 channels of floats, up to 2^28 pixels");
+    bool is_good = n_layers >= 1 && n_layers <= EXR_MOST_LAYERS;
+    for (size_t i = 0; i < n_layers && is_good; i++) {
+        const image *p = layers[i].picture;
+        is_good = p && p->pixels && p->type == PIXEL_F32 && p->n_channels >= 1 && p->n_channels <= 4 && p->width >= 1 &&
+                  p->height >= 1 && p->width <= IMAGE_PIXEL_CAP/p->height && p->width == layers[0].picture->width &&
+                  p->height == layers[0].picture->height;
     }
+    if (is_good) return FACET_OK;
+    return facet_error_set(why, FACET_BAD_ARGUMENT, "",
+                           "OpenEXR is written from 1 to %d pictures of 1 to 4 channels of floats, up to 2^28 pixels",
+                           EXR_MOST_LAYERS);
+}
+
+static facet_status check_texts(const image_text *text, size_t n_texts, facet_error *why)
+{
+    if (n_texts > 0 && !text) return facet_error_set(why, FACET_BAD_ARGUMENT, "", "there are no texts");
     for (size_t i = 0; i < n_texts; i++) {
         const size_t n = text[i].key ? strlen(text[i].key) : 0;
         if (n < 1 || n > LONG_NAME || !text[i].value || strlen(text[i].value) > INT_MAX/2) {
@@ -644,10 +686,19 @@ static facet_status check_arguments(const image *picture, const image_text *text
 facet_status exr_write(const char *path, const image *picture, exr_precision precision, const image_text *text,
                        size_t n_texts, const float *world_to_camera, const float *world_to_ndc, facet_error *why)
 {
-    facet_status status = check_arguments(picture, text, n_texts, why);
-    if (status != FACET_OK) {
-        return status;
-    }
+    static const char *const NAMES[5][4] = {{NULL}, {"Y"}, {"Y", "A"}, {"R", "G", "B"}, {"R", "G", "B", "A"}};
+    exr_layer layer = {.picture = picture, .precision = precision};
+    if (picture && picture->n_channels <= 4) memcpy(layer.channels, NAMES[picture->n_channels], sizeof layer.channels);
+    return exr_write_layers(path, &layer, 1, text, n_texts, world_to_camera, world_to_ndc, why);
+}
+
+facet_status exr_write_layers(const char *path, const exr_layer *layers, size_t n_layers, const image_text *text,
+                              size_t n_texts, const float *world_to_camera, const float *world_to_ndc, facet_error *why)
+{
+    facet_status status = check_layers(layers, n_layers, why);
+    if (status == FACET_OK) status = check_texts(text, n_texts, why);
+    if (status != FACET_OK) return status;
+    const channel_list list = list_channels(layers, n_layers);
     file_writer writer;
     status = file_writer_open(&writer, path, why);
     if (status != FACET_OK) {
@@ -659,10 +710,10 @@ facet_status exr_write(const char *path, const image *picture, exr_precision pre
     exr_context_t context = NULL;
     exr_result_t code = exr_start_write(&context, "stream", EXR_WRITE_FILE_DIRECTLY, &init);
     if (code == EXR_ERR_SUCCESS) {
-        code = write_header(context, picture, precision, text, n_texts, world_to_camera, world_to_ndc);
+        code = write_header(context, &list, text, n_texts, world_to_camera, world_to_ndc);
     }
     if (code == EXR_ERR_SUCCESS) {
-        code = write_pixels(context, picture, precision);
+        code = write_pixels(context, &list);
     }
     if (context) {
         const exr_result_t last = exr_finish(&context);

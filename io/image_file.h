@@ -43,6 +43,20 @@ typedef enum exr_precision { EXR_FLOAT, EXR_HALF } exr_precision;
 facet_status exr_write(const char *path, const image *picture, exr_precision precision, const image_text *text,
                        size_t n_texts, const float *world_to_camera, const float *world_to_ndc, facet_error *why);
 
+/* A picture among those of an OpenEXR file, F32, by the names of its channels: "R", "albedo.R", "Z". */
+typedef struct exr_layer {
+    const char *channels[4]; /* [picture->n_channels] */
+    const image *picture;    /* all of a file have the same size */
+    exr_precision precision;
+} exr_layer;
+
+enum { EXR_MOST_LAYERS = 8 };
+
+/* The same with any pictures; names must differ. */
+facet_status exr_write_layers(const char *path, const exr_layer *layers, size_t n_layers, const image_text *text,
+                              size_t n_texts, const float *world_to_camera, const float *world_to_ndc,
+                              facet_error *why);
+
 /* PNG, 8 or 16 bit, of an image of type U8 or U16, marked as sRGB; text goes into tEXt/iTXt chunks. */
 facet_status png_write(const char *path, const image *picture, const image_text *text, size_t n_texts,
                        facet_error *why);
