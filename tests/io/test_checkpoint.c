@@ -48,8 +48,10 @@ static render_state some_state(size_t width, size_t height)
                           .n_bad = draw_bits(&d),
                           .seconds = 1e3*draw(&d),
                           .cpu_seconds = 1e3*draw(&d),
+                          .mean_luminance = draw(&d),
                           .spp = 77};
     if (film_create(width, height, &state.film)) fail();
+    if (width%2 && film_keep_features(&state.film)) fail();
     state.film.n_clamped = draw_bits(&d);
     for (uint32_t i = 0; i < RENDER_MAX_REPORTED; i++) state.bad[i] = (bad_sample){i, 2*i, 1u << 31 | i};
     for (size_t i = 0; i < width*height; i++) {
@@ -57,18 +59,33 @@ static render_state some_state(size_t width, size_t height)
         for (int k = 0; k < 3; k++) p->rgb[k] = (exact_sum){draw_bits(&d), draw_bits(&d)};
         p->luminance_squares = (exact_sum){draw_bits(&d), draw_bits(&d)};
         p->n = (uint32_t)draw_bits(&d);
+        if (!state.film.features) continue;
+        film_features *q = &state.film.features[i];
+        for (int k = 0; k < 3; k++) {
+            q->albedo[k] = (int64_t)draw_bits(&d);
+            q->normal[k] = (int64_t)draw_bits(&d);
+        }
+        q->distance = (exact_sum){draw_bits(&d), draw_bits(&d)};
+        q->n_hits = (uint32_t)draw_bits(&d);
     }
     return state;
 }
 
 static void assert_same_film(const film *a, const film *b)
 {
+    assert_true(!a->features == !b->features);
     assert_true(a->width == b->width && a->height == b->height && a->n_clamped == b->n_clamped);
     for (size_t i = 0; i < a->width*a->height; i++) { /* not the padding */
         const film_pixel *p = &a->pixels[i], *q = &b->pixels[i];
         assert_memory_equal(p->rgb, q->rgb, sizeof p->rgb);
         assert_memory_equal(&p->luminance_squares, &q->luminance_squares, sizeof p->luminance_squares);
         assert_int_equal(p->n, q->n);
+        if (!b->features) continue;
+        const film_features *r = &a->features[i], *s = &b->features[i];
+        assert_memory_equal(r->albedo, s->albedo, sizeof r->albedo);
+        assert_memory_equal(r->normal, s->normal, sizeof r->normal);
+        assert_memory_equal(&r->distance, &s->distance, sizeof r->distance);
+        assert_int_equal(r->n_hits, s->n_hits);
     }
 }
 
@@ -88,6 +105,7 @@ static void a_state_survives_its_file(void **state)
         assert_true(c.state.n_shadow_rays == made.n_shadow_rays && c.state.n_bad == made.n_bad);
         assert_true(c.state.seconds == made.seconds && c.state.cpu_seconds == made.cpu_seconds);
         assert_int_equal(c.state.spp, made.spp);
+        assert_true(c.state.mean_luminance == made.mean_luminance);
         assert_memory_equal(c.state.bad, made.bad, sizeof made.bad);
         assert_int_equal(c.n_texts, N_TEXTS);
         for (size_t k = 0; k < N_TEXTS; k++) {
@@ -177,7 +195,7 @@ static void every_truncation_and_extension_is_refused(void **state)
 static void exchanged_and_zeroed_rows_are_refused(void **state)
 {
     (void)state;
-    enum { ROW = 3*68 + 4 };
+    enum { ROW = 3*136 + 4 };
     size_t size;
     char *bytes = some_bytes(&size), *first = bytes + size - 2*ROW, row[ROW];
     const char *path = in_folder(folder, "rows.ckpt");
@@ -203,7 +221,7 @@ static uint32_t crc_of(uint32_t crc, const char *bytes, size_t size)
     return ~crc;
 }
 
-enum { HEAD_SIZE = 8 + 4*5 + 8*7 + 12*RENDER_MAX_REPORTED, TEXTS_AT = HEAD_SIZE + 4 };
+enum { HEAD_SIZE = 8 + 4*6 + 8*8 + 12*RENDER_MAX_REPORTED, TEXTS_AT = HEAD_SIZE + 4 };
 
 /* Makes the checksums of a head and texts right again. */
 static void forge(char *bytes, size_t text_size)
@@ -239,7 +257,7 @@ static void forged_files_are_refused_or_read_within_their_bounds(void **state)
         memcpy(bytes + 12, forged, sizeof forged);
         memcpy(bytes + TEXTS_AT, ends[i], lengths[i]);
         forge(bytes, lengths[i]);
-        write_bytes(path, bytes, TEXTS_AT + lengths[i] + 4 + 68 + 4);
+        write_bytes(path, bytes, TEXTS_AT + lengths[i] + 4 + 136 + 4);
         assert_int_equal(checkpoint_read(path, false, &c, NULL), FACET_OK);
         for (size_t k = 0; k < c.n_texts; k++) assert_non_null(checkpoint_text(&c, c.texts[k].key));
         checkpoint_destroy(&c);
@@ -264,11 +282,11 @@ static void each_refusal_has_its_reason(void **state)
     write_bytes(path, bytes, size - 1);
     assert_int_equal(checkpoint_read(path, true, &c, &why), FACET_BAD_FILE);
     assert_non_null(strstr(why.text, "bytes in place of"));
-    bytes[8] = 2;
+    bytes[8] = 1;
     write_bytes(path, bytes, size);
     assert_int_equal(checkpoint_read(path, true, &c, &why), FACET_UNSUPPORTED);
-    assert_string_equal(why.text, "is a checkpoint of format 2; this facet reads format 1");
-    bytes[8] = 1;
+    assert_string_equal(why.text, "is a checkpoint of format 1; this facet reads format 2");
+    bytes[8] = 2;
     bytes[size - 5] ^= 1;
     write_bytes(path, bytes, size);
     assert_int_equal(checkpoint_read(path, true, &c, &why), FACET_BAD_FILE);

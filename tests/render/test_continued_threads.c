@@ -1,6 +1,7 @@
 /* test_continued_threads.c: renders that are stopped, continued and divided into shards give the bits of one that is
  * not.  Small, because it also runs under thread sanitizers.
  * SPDX-License-Identifier: MIT */
+#include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stdbool.h>
@@ -45,6 +46,7 @@ static render_state copy_of(const render_state *state)
 {
     render_state copy = *state;
     if (film_create(WIDTH, HEIGHT, &copy.film)) fail();
+    if (state->film.features && film_keep_features(&copy.film)) fail();
     film_merge(&copy.film, &state->film);
     return copy;
 }
@@ -61,6 +63,16 @@ static void keep(void *user, const render_state *state)
     if (all->n < MOST_STATES) all->states[all->n++] = copy_of(state);
 }
 
+static void check_layer(const film *a, const film *b, film_layer layer)
+{
+    image p, q;
+    assert_int_equal(film_develop_layer(a, layer, &p), FACET_OK);
+    assert_int_equal(film_develop_layer(b, layer, &q), FACET_OK);
+    assert_memory_equal(p.pixels, q.pixels, WIDTH*HEIGHT*p.n_channels*sizeof(float));
+    image_destroy(&q);
+    image_destroy(&p);
+}
+
 static void continue_and_compare(const scene *s, render_settings r, const render_state *from, const render_state *whole,
                                  const render_result *expected)
 {
@@ -69,6 +81,9 @@ static void continue_and_compare(const scene *s, render_settings r, const render
     facet_error why = {0};
     if (render_continue(s, &r, &state, &result, &why)) fail_msg("%s: %s", why.place, why.text);
     assert_memory_equal(state.film.pixels, whole->film.pixels, WIDTH*HEIGHT*sizeof *state.film.pixels);
+    if (r.keeps_features)
+        for (film_layer layer = FILM_ALBEDO; layer <= FILM_SAMPLES; layer++)
+            check_layer(&state.film, &whole->film, layer);
     assert_memory_equal(result.picture.pixels, expected->picture.pixels, 3*sizeof(float)*WIDTH*HEIGHT);
     assert_true(result.spp == expected->spp && result.is_complete == expected->is_complete);
     assert_true(result.noise == expected->noise);
@@ -88,6 +103,9 @@ static render_state state_inside_a_pass(const render_state *before, const render
             for (size_t row = y; row < y + TILE_SIZE && row < HEIGHT; row++)
                 memcpy(&state.film.pixels[row*WIDTH + x], &after->film.pixels[row*WIDTH + x],
                        n*sizeof *state.film.pixels);
+            for (size_t row = y; state.film.features && row < y + TILE_SIZE && row < HEIGHT; row++)
+                memcpy(&state.film.features[row*WIDTH + x], &after->film.features[row*WIDTH + x],
+                       n*sizeof *state.film.features);
         }
     return state;
 }
@@ -105,7 +123,7 @@ static void check_all_continuations(render_settings r)
     r.user = all;
     assert_int_equal(render_continue(s, &r, &whole, &expected, NULL), FACET_OK);
     assert_true(all->n >= 3);
-    assert_int_equal(all->states[all->n - 1].n_paths, (uint64_t)WIDTH*HEIGHT*expected.spp);
+    assert_true(fabs((double)all->states[all->n - 1].n_paths/(WIDTH*HEIGHT*expected.mean_spp) - 1) < 1e-9);
     r.save = NULL;
     for (size_t i = 0; i < all->n; i++) {
         r.n_threads = (uint32_t)(1 + i%3);
@@ -125,15 +143,93 @@ static void check_all_continuations(render_settings r)
 static void a_continued_render_gives_the_bits_of_an_uninterrupted_one(void **state)
 {
     (void)state;
-    check_all_continuations(settings(SAMPLE_DIVISOR > 1 ? 4 : 9));
+    render_settings r = settings(SAMPLE_DIVISOR > 1 ? 4 : 9);
+    check_all_continuations(r);
+    r.keeps_features = true;
+    check_all_continuations(r);
 }
 
 static void a_continued_render_stops_at_the_same_noise(void **state)
 {
     (void)state;
     render_settings r = settings(4096);
-    r.noise_target = 0.3;
+    r.noise_target = 0.15;
     check_all_continuations(r);
+}
+
+/* Tiles end at different times, and none but those that are quiet enough. */
+static void each_tile_ends_at_its_own_noise(void **state)
+{
+    (void)state;
+    scene *s = ball_and_lamp();
+    render_settings r = settings(4096);
+    render_state made = {0};
+    render_result result = {0};
+    r.noise_target = 0.15;
+    assert_int_equal(render_continue(s, &r, &made, &result, NULL), FACET_OK);
+    assert_true(result.noise > 0 && result.noise <= r.noise_target && !result.is_complete);
+    assert_true(result.mean_spp < result.spp && result.mean_spp >= 16);
+    uint32_t least = UINT32_MAX, most = 0;
+    for (size_t y = 0; y < HEIGHT; y += TILE_SIZE)
+        for (size_t x = 0; x < WIDTH; x += TILE_SIZE) {
+            const size_t x1 = x + TILE_SIZE < WIDTH ? x + TILE_SIZE : WIDTH,
+                         y1 = y + TILE_SIZE < HEIGHT ? y + TILE_SIZE : HEIGHT;
+            const uint32_t n = made.film.pixels[y*WIDTH + x].n;
+            film_error e;
+            assert_true(film_measure(&made.film, x, y, x1, y1, &e));
+            const bool is_quiet = e.deviation <= r.noise_target*sqrt(e.luminance*made.mean_luminance);
+            assert_true(is_quiet || n == result.spp);
+            least = n < least ? n : least;
+            most = n > most ? n : most;
+        }
+    assert_true(least >= 16 && least < most && most == result.spp);
+    render_result_destroy(&result);
+    render_state_destroy(&made);
+    scene_destroy(s);
+}
+
+/* What film_noise estimates, in truth: the mean over blocks of the root mean square error of their pixels, over the
+ * mean luminance. */
+static double true_noise(const image *picture, const image *reference)
+{
+    double error = 0, luminance = 0;
+    for (size_t y = 0; y < HEIGHT; y += FILM_BLOCK)
+        for (size_t x = 0; x < WIDTH; x += FILM_BLOCK) {
+            double squares = 0, n = 0;
+            for (size_t row = y; row < HEIGHT && row < y + FILM_BLOCK; row++)
+                for (size_t column = x; column < WIDTH && column < x + FILM_BLOCK; column++, n++) {
+                    const float *p = (const float *)picture->pixels + 3*(row*WIDTH + column),
+                                *q = (const float *)reference->pixels + 3*(row*WIDTH + column);
+                    squares += pow((double)(p[1] - q[1]), 2); /* all is grey */
+                    luminance += (double)q[1];
+                }
+            error += n*sqrt(squares/n);
+        }
+    return error/luminance;
+}
+
+/* The estimate takes samples for independent; those that are spread evenly err less. */
+static void the_noise_that_is_promised_is_kept(void **state)
+{
+    (void)state;
+    scene *s = ball_and_lamp();
+    render_settings r = settings(4096);
+    render_state made = {0}, reference = {0};
+    render_result result = {0}, exact = {0};
+    r.noise_target = 0.1;
+    assert_int_equal(render_continue(s, &r, &made, &result, NULL), FACET_OK);
+    r.noise_target = 0;
+    r.seed = 1;
+    r.spp = 64*result.spp/(SAMPLE_DIVISOR > 1 ? 8 : 1);
+    assert_int_equal(render_continue(s, &r, &reference, &exact, NULL), FACET_OK);
+    const double error = true_noise(&result.picture, &exact.picture);
+    if (!(error <= result.noise && error > result.noise/3))
+        fail_msg("the noise is %g, and was estimated as %g", error, result.noise);
+    render_result_destroy(&exact);
+    render_result_destroy(&result);
+    render_state_destroy(&reference);
+    render_state_destroy(&made);
+    scene_destroy(s);
 }
 
 /* Stopped by its own progress callback again and again, on other numbers of threads. */
@@ -236,6 +332,9 @@ static void states_of_other_renders_are_refused(void **state)
     r.width++;
     assert_int_equal(render_continue(s, &r, &made, &result, &why), FACET_BAD_VALUE);
     r.width--;
+    r.keeps_features = true; /* the state has none */
+    assert_int_equal(render_continue(s, &r, &made, &result, &why), FACET_BAD_VALUE);
+    r.keeps_features = false;
     made.film.pixels[WIDTH + 1].n--; /* within a tile */
     assert_int_equal(render_continue(s, &r, &made, &result, &why), FACET_BAD_VALUE);
     render_state_destroy(&made);
@@ -254,6 +353,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_continued_render_gives_the_bits_of_an_uninterrupted_one),
         cmocka_unit_test(a_continued_render_stops_at_the_same_noise),
+        cmocka_unit_test(each_tile_ends_at_its_own_noise),
+        cmocka_unit_test(the_noise_that_is_promised_is_kept),
         cmocka_unit_test(a_render_that_is_stopped_again_and_again_ends_the_same),
         cmocka_unit_test(shards_add_up_to_the_whole),
         cmocka_unit_test(shares_cover_all_samples_once),

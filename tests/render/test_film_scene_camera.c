@@ -162,6 +162,80 @@ static void noise_is_the_standard_error(void **state)
     }
 }
 
+/* Samples of 10 +- 1 on the left and 10 +- 3 on the right; then one pixel that a rare bright path hits. */
+static void noise_is_a_mean_over_blocks(void **state)
+{
+    (void)state;
+    film f;
+    film_error e;
+    assert_int_equal(film_create(128, 40, &f), FACET_OK);
+    for (size_t i = 0; i < 128*40; i++) {
+        const float deviation = i%128 < 64 ? 1 : 3;
+        for (int k = 0; k < 16; k++) {
+            const float x = 10 + (k & 1 ? deviation : -deviation);
+            film_add(&f, i%128, i/128, (const float[3]){x, x, x});
+        }
+    }
+    /* The variance of a mean of 16: deviation^2 / 15. */
+    assert_true(fabs(film_noise(&f)/(0.5*(1 + 3)/sqrt(15)/10) - 1) < 1e-6);
+    assert_true(film_measure(&f, 0, 0, 128, 40, &e));
+    assert_true(fabs(e.luminance/10 - 1) < 1e-6 && fabs(e.deviation/sqrt((1 + 9)/2.0/15) - 1) < 1e-6);
+    const double before = film_noise(&f);
+    film_add(&f, 3, 3, (const float[3]){1e6f, 1e6f, 1e6f});
+    film_error block;
+    assert_true(film_measure(&f, 0, 0, 32, 32, &block));
+    assert_true(film_measure(&f, 0, 0, 128, 40, &e));
+    const double bright = block.deviation*32*32/(128*40)/e.luminance;
+    assert_true(film_noise(&f) > bright && film_noise(&f) < bright + before);
+    assert_true(fabs(film_mean_samples(&f) - (16 + 1/(128*40.0))) < 1e-9);
+    film_destroy(&f);
+}
+
+/* ---- Features ------------------------------------------------------------------------------------------------ */
+
+static void expect_layer(const film *f, film_layer layer, size_t n_channels, const float *expected, float tolerance)
+{
+    image picture;
+    assert_int_equal(film_develop_layer(f, layer, &picture), FACET_OK);
+    assert_int_equal(picture.n_channels, n_channels);
+    for (size_t k = 0; k < n_channels; k++) {
+        const float got = ((const float *)picture.pixels)[k];
+        if (!(fabsf(got - expected[k]) <= tolerance || got == expected[k]))
+            fail_msg("%a is not %a", (double)got, (double)expected[k]);
+    }
+    image_destroy(&picture);
+}
+
+static void features_are_means_within_their_range(void **state)
+{
+    (void)state;
+    film f, other;
+    const feature first = {{.25f, 0, 7}, {0, 0, -1}, 2}, second = {{.75f, -1, NAN}, {0, 1, 0}, 5},
+                  sky = {{0, 0, 0}, {NAN, INFINITY, 0}, INFINITY};
+    assert_int_equal(film_create(1, 1, &f), FACET_OK);
+    assert_int_equal(film_keep_features(&f), FACET_OK);
+    expect_layer(&f, FILM_ALBEDO, 3, (const float[3]){0, 0, 0}, 0);
+    expect_layer(&f, FILM_DISTANCE, 1, (const float[1]){INFINITY}, 0);
+    const feature *const seen[] = {&first, &second, &sky, &sky};
+    for (int i = 0; i < 4; i++) {
+        film_add(&f, 0, 0, (const float[3]){0, 0, 0});
+        film_add_feature(&f, 0, 0, seen[i]);
+    }
+    assert_int_equal(film_create(1, 1, &other), FACET_OK);
+    assert_int_equal(film_keep_features(&other), FACET_OK);
+    film_merge(&other, &f);
+    film_merge(&other, &f);
+    const film *const films[] = {&f, &other};
+    for (int i = 0; i < 2; i++) { /* in units of 2^-32 */
+        expect_layer(films[i], FILM_ALBEDO, 3, (const float[3]){.25f, 0, .25f}, 0x1p-31f);
+        expect_layer(films[i], FILM_NORMAL, 3, (const float[3]){0, .75f, -.25f}, 0x1p-31f);
+        expect_layer(films[i], FILM_DISTANCE, 1, (const float[1]){3.5f}, 0);
+        expect_layer(films[i], FILM_SAMPLES, 1, (const float[1]){i ? 8 : 4}, 0);
+    }
+    film_destroy(&other);
+    film_destroy(&f);
+}
+
 static void a_black_film_has_no_noise_estimate(void **state)
 {
     (void)state;
@@ -344,6 +418,8 @@ int main(void)
         cmocka_unit_test(the_longest_sums_do_not_overflow),
         cmocka_unit_test(means_are_those_of_long_doubles),
         cmocka_unit_test(noise_is_the_standard_error),
+        cmocka_unit_test(noise_is_a_mean_over_blocks),
+        cmocka_unit_test(features_are_means_within_their_range),
         cmocka_unit_test(a_black_film_has_no_noise_estimate),
         cmocka_unit_test(bounds_take_in_instances_and_spheres),
         cmocka_unit_test(things_are_found_by_name),
