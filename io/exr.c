@@ -670,6 +670,17 @@ static facet_status check_layers(const exr_layer *layers, size_t n_layers, facet
                            EXR_MOST_LAYERS);
 }
 
+/* The library would wait for a lock of its own that it holds while it complains. */
+static facet_status check_names(const channel_list *list, facet_error *why)
+{
+    for (size_t i = 0; i < list->n; i++)
+        for (size_t k = 0; k < i; k++)
+            if (strcmp(list->items[i].name, list->items[k].name) == 0)
+                return facet_error_set(why, FACET_BAD_ARGUMENT, list->items[i].name,
+                                       "there are two channels of this name");
+    return FACET_OK;
+}
+
 static facet_status check_texts(const image_text *text, size_t n_texts, facet_error *why)
 {
     if (n_texts > 0 && !text) return facet_error_set(why, FACET_BAD_ARGUMENT, "", "there are no texts");
@@ -699,6 +710,8 @@ facet_status exr_write_layers(const char *path, const exr_layer *layers, size_t 
     if (status == FACET_OK) status = check_texts(text, n_texts, why);
     if (status != FACET_OK) return status;
     const channel_list list = list_channels(layers, n_layers);
+    status = check_names(&list, why);
+    if (status != FACET_OK) return status;
     file_writer writer;
     status = file_writer_open(&writer, path, why);
     if (status != FACET_OK) {

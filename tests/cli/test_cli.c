@@ -57,9 +57,9 @@ static const struct {
 } helps[] = {
     {"render",
      "--output --spp --size --camera --env --env-scale --depth --threads --seed --crop --time --noise "
-     "--material --strategy --sampler --isa --checkpoint --checkpoint-interval --resume --shard --exposure --view "
+     "--aov --denoise --oidn --material --strategy --sampler --isa --checkpoint --checkpoint-interval --resume --shard --exposure --view "
      "--half --quiet --events --json --help -o -s -t -h"},
-    {"merge", "--output --exposure --view --half --quiet --help -o"},
+    {"merge", "--output --aov --denoise --oidn --exposure --view --half --quiet --help -o"},
     {"compare", "--metric --max --exposure --view --diff --json --help"},
     {"eval", "--wi --wo --csv --double --help"},
     {"sample", "--wo --count --seed --double --help -n"},

@@ -147,6 +147,37 @@ static void exr_float_round_trip_is_bit_exact(void **state)
     }
 }
 
+/* Each of three pictures in turn is the one that readers look for; the others, of another size of sample, lie around it. */
+static void exr_layers_do_not_disturb_each_other(void **state)
+{
+    (void)state;
+    static const char *const rgb[4] = {"R", "G", "B"}, *const names[2][4] = {{"albedo.R", "albedo.G", "albedo.B"},
+                                                                             {"Specular.X", "Specular.Y", "zeta"}};
+    image pictures[3];
+    for (size_t k = 0; k < 3; k++) pictures[k] = random_image(37, 35, 3, PIXEL_F32);
+    for (size_t base = 0; base < 3; base++) {
+        exr_layer layers[3];
+        facet_error why = {0};
+        for (size_t k = 0, n = 0; k < 3; k++) {
+            layers[k] = (exr_layer){.picture = &pictures[k], .precision = k == base ? EXR_FLOAT : EXR_HALF};
+            memcpy(layers[k].channels, k == base ? rgb : names[n], sizeof rgb);
+            n += k != base;
+        }
+        assert_int_equal(exr_write_layers(target, layers, 3, NULL, 0, NULL, NULL, &why), FACET_OK);
+        image q = read_target();
+        assert_same_picture(&pictures[base], &q);
+        image_destroy(&q);
+        memcpy(layers[base].channels, names[1], sizeof rgb); /* a name twice */
+        assert_int_equal(exr_write_layers(target, layers, 3, NULL, 0, NULL, NULL, &why), FACET_BAD_ARGUMENT);
+    }
+    image small = random_image(36, 35, 3, PIXEL_F32);
+    const exr_layer uneven[2] = {{{"R", "G", "B"}, &pictures[0], EXR_FLOAT}, {{"a", "b", "c"}, &small, EXR_FLOAT}};
+    assert_int_equal(exr_write_layers(target, uneven, 2, NULL, 0, NULL, NULL, NULL), FACET_BAD_ARGUMENT);
+    assert_int_equal(exr_write_layers(target, uneven, 0, NULL, 0, NULL, NULL, NULL), FACET_BAD_ARGUMENT);
+    image_destroy(&small);
+    for (size_t k = 0; k < 3; k++) image_destroy(&pictures[k]);
+}
+
 /* The value of a half, from its definition. */
 static float half_value(unsigned h)
 {
@@ -471,6 +502,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         TEST(exr_float_round_trip_is_bit_exact),
+        TEST(exr_layers_do_not_disturb_each_other),
         TEST(exr_half_keeps_every_half),
         TEST(exr_half_rounds_to_nearest),
         TEST(exr_keeps_text_and_matrices),
