@@ -216,14 +216,14 @@ done:
     return status;
 }
 
-facet_status light_set_create(const scene *s, light_set **result, facet_error *why)
+facet_status light_set_create(const scene *s, bool has_scattered, light_set **result, facet_error *why)
 {
     light_set *set = calloc(1, sizeof *set);
     if (!set) return facet_error_set(why, FACET_NO_MEMORY, "lights", "no memory for the light tables");
     set->scene = s;
     set->first_of_instance = malloc((s->n_instances + 1)*sizeof *set->first_of_instance);
     set->of_sphere = malloc((s->n_spheres + 1)*sizeof *set->of_sphere);
-    facet_status status = sky_create(&s->environment, &set->sky, why);
+    facet_status status = sky_create(&s->environment, has_scattered, &set->sky, why);
     if (status == FACET_OK) {
         status = set->first_of_instance && set->of_sphere ? collect(set) : FACET_NO_MEMORY;
         if (status == FACET_OK) status = tabulate(set);

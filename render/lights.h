@@ -20,8 +20,9 @@ extern "C" {
 
 typedef struct light_set light_set;
 
-/* The scene must stay until light_set_destroy. */
-facet_status light_set_create(const scene *s, light_set **result, facet_error *why);
+/* The scene must stay until light_set_destroy.  has_scattered: scattered rays that meet lights are counted, too, with
+ * weights by light_set_pdf_of_hit and light_set_pdf_of_sky; else every direction that light comes from is drawn. */
+facet_status light_set_create(const scene *s, bool has_scattered, light_set **result, facet_error *why);
 void light_set_destroy(light_set *set);
 
 /* Whether there is anything to sample. */

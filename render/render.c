@@ -108,7 +108,7 @@ static facet_status job_create(const scene *s, const render_settings *r, uint32_
         if (s->materials[i].transmission > 0) j->context.has_mixed_surfaces = true;
     light_set *lights = NULL;
     tracer *built = NULL;
-    facet_status status = light_set_create(s, &lights, why);
+    facet_status status = light_set_create(s, r->strategy == STRATEGY_MIS, &lights, why);
     if (status == FACET_OK) status = tracer_create(s, r->isa, n_threads, surface_opacity, s, &built, why);
     j->context.lights = lights;
     surface_set *surfaces = NULL;

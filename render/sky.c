@@ -70,7 +70,23 @@ static double texel_weight(const environment *e, size_t x, size_t y)
     return sum;
 }
 
-facet_status sky_create(const environment *e, sky *result, facet_error *why)
+static double solid_angle(const sky *s, size_t row)
+{
+    return 0.5*(double)row_extent(s, row)/(double)s->environment->map.width; /* in units of 4 pi */
+}
+
+/* Takes the mean luminance from every weight.  [karlik19] Karlik, Sik, Vevoda, Skrivan and Krivanek, MIS compensation,
+ * 2019: what is dimmer is left to scattered rays, which find it well enough.  A sky that is even keeps its weights. */
+static void compensate(const sky *s, double *weights, double mean)
+{
+    const size_t w = s->environment->map.width, n = w*s->environment->map.height;
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) sum += fmax(weights[i] - mean*solid_angle(s, i/w), 0);
+    if (!(sum > 1e-3*mean)) return;
+    for (size_t i = 0; i < n; i++) weights[i] = fmax(weights[i] - mean*solid_angle(s, i/w), 0);
+}
+
+facet_status sky_create(const environment *e, bool is_compensated, sky *result, facet_error *why)
 {
     *result = (sky){.environment = e, .mean = (double)luminance(vector_of(e->scale))};
     if (!e->map.pixels) return FACET_OK;
@@ -78,16 +94,18 @@ facet_status sky_create(const environment *e, sky *result, facet_error *why)
     if (w*h > UINT32_MAX/2) return facet_error_set(why, FACET_UNSUPPORTED, "environment", "more than 2^31 texels");
     double *weights = malloc(w*h*sizeof *weights);
     if (!weights) return facet_error_set(why, FACET_NO_MEMORY, "environment", "no memory for its sampling table");
-    double sum = 0;
+    double sum = 0, solid_sum = 0;
     for (size_t y = 0; y < h; y++) {
-        const double solid = 0.5*(double)row_extent(result, y)/(double)w;
+        const double solid = solid_angle(result, y);
         for (size_t x = 0; x < w; x++) {
             const real3 t = texel_at(e, x, y), c = clean_texel(e, x, y);
             if (!(t.x == c.x && t.y == c.y && t.z == c.z)) result->n_dropped++;
             weights[y*w + x] = solid*texel_weight(e, x, y);
             sum += weights[y*w + x];
+            solid_sum += solid;
         }
     }
+    if (is_compensated) compensate(result, weights, sum/solid_sum);
     result->mean = sum;
     const facet_status status = alias_table_create(weights, (uint32_t)(w*h), &result->texels);
     free(weights);

@@ -18,11 +18,14 @@
 
 static const double pi = 3.14159265358979323846;
 
+/* As light_set_create asks; false in all tests but one. */
+static bool has_scattered;
+
 static light_set *lights_of(const scene *s)
 {
     light_set *set = NULL;
     facet_error why = {0};
-    if (light_set_create(s, &set, &why)) fail_msg("%s: %s", why.place, why.text);
+    if (light_set_create(s, has_scattered, &set, &why)) fail_msg("%s: %s", why.place, why.text);
     return set;
 }
 
@@ -359,6 +362,68 @@ static void sky_maps_are_drawn_by_their_radiance(void **state)
     check_densities("sky, quad and sphere", s, splat3(0), 0.1);
 }
 
+/* The light on a plane that faces +z under the sky, in units of its exact value: from draws of lights and as many
+ * uniform directions above it, weighted by the balance heuristic. */
+static double irradiance_by_both(const light_set *set, int n, draws *d, double *error)
+{
+    double sum = 0, squares = 0;
+    for (int i = 0; i < n; i++) {
+        double v[3], x = 0;
+        const light_sample l = draw_light(set, splat3(0), d);
+        if (l.pdf > 0 && l.direction.z > 0)
+            x += (double)(luminance(l.radiance)*l.direction.z)/((double)l.pdf + 1/(2*pi));
+        draw_direction(d, v);
+        const real3 w = make3((float)v[0], (float)v[1], (float)v[2]);
+        const double radiance = (double)luminance(sky_radiance(light_set_sky(set), w));
+        x += radiance*v[2]/((double)light_set_pdf_of_sky(set, splat3(0), w) + 1/(2*pi));
+        sum += x;
+        squares += x*x;
+    }
+    *error = sqrt((squares/n - sum*sum/n/n)/n);
+    return sum/n;
+}
+
+static void a_compensated_sky_is_drawn_by_what_exceeds_its_mean(void **state)
+{
+    (void)state;
+    static float texels[H][W][3];
+    draws d = {8};
+    for (int i = 0; i < H*W; i++)
+        for (int k = 0; k < 3; k++) texels[i/W][i%W][k] = i%7 ? .5f : 9;
+    has_scattered = true;
+    scene *s = build_scene();
+    build_sky(s, W, H, &texels[0][0][0]);
+    check_densities("sky, compensated", s, splat3(0), 0);
+    s = build_scene(); /* nothing exceeds the mean: as without */
+    for (int i = 0; i < H*W*3; i++) (&texels[0][0][0])[i] = 2;
+    build_sky(s, W, H, &texels[0][0][0]);
+    check_densities("sky, even and compensated", s, splat3(0), 0);
+
+    for (int i = 0; i < H*W; i++)
+        for (int k = 0; k < 3; k++) texels[i/W][i%W][k] = i%7 ? .5f : 9;
+    s = build_scene();
+    build_sky(s, W, H, &texels[0][0][0]);
+    light_set *compensated = lights_of(s);
+    has_scattered = false;
+    light_set *plain = lights_of(s);
+    int n_undrawn = 0;
+    double error, plain_error;
+    for (int i = 0; i < 1000; i++) {
+        double v[3];
+        draw_direction(&d, v);
+        const real3 w = make3((float)v[0], (float)v[1], (float)v[2]);
+        assert_true(light_set_pdf_of_sky(plain, splat3(0), w) > 0);
+        n_undrawn += light_set_pdf_of_sky(compensated, splat3(0), w) == 0;
+    }
+    assert_true(n_undrawn > 100);
+    const double a = irradiance_by_both(compensated, 200000, &d, &error),
+                 b = irradiance_by_both(plain, 200000, &d, &plain_error);
+    assert_true(fabs(a - b) < 5*sqrt(error*error + plain_error*plain_error) && error < plain_error);
+    light_set_destroy(plain);
+    light_set_destroy(compensated);
+    scene_destroy(s);
+}
+
 /* Inside every texel with light its density is positive wherever the interpolated radiance is: otherwise light would
  * be found by scattered rays alone and explicit connection would lose it. */
 static void no_lit_direction_has_density_zero(void **state)
@@ -455,6 +520,7 @@ int main(void)
         cmocka_unit_test(punctual_lights_among_many_bring_their_light),
         cmocka_unit_test(far_small_spheres_keep_their_solid_angle),
         cmocka_unit_test(sky_maps_are_drawn_by_their_radiance),
+        cmocka_unit_test(a_compensated_sky_is_drawn_by_what_exceeds_its_mean),
         cmocka_unit_test(no_lit_direction_has_density_zero),
         cmocka_unit_test(a_black_sky_is_no_light_and_bad_texels_are_black),
         cmocka_unit_test(the_map_is_turned_as_documented),
