@@ -1,9 +1,12 @@
 /* sampler.h: the numbers in [0,1) that place a path: pixel position, lobes, directions, lights.
  *
  * sobol: each group of up to three dimensions is a Sobol' point set of its own, whose order is shuffled and
- * whose digits are Owen-scrambled by hashes of pixel, group and seed, so that groups are independent of
+ * whose digits are Owen-scrambled by hashes of place, group and seed, so that groups are independent of
  * each other while each stays well spread over the samples of a pixel.  [burley20] Burley, Practical
- * hash-based Owen scrambling, JCGT 2020.  random: independent numbers by the same hashes.
+ * hash-based Owen scrambling, JCGT 2020.  Squares of pixels share a point set, whose aligned runs are their quarters, and
+ * the quarters' quarters, down to pixels: neighbours complement each other, and what error is left is blue noise.
+ * [ahmed20] Ahmed and Wonka, Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical ordering
+ * of pixels, 2020.  random: independent numbers by the same hashes.
  *
  * A number depends only on (seed, pixel, sample, group): never on threads or order.
  * SPDX-License-Identifier: MIT */
@@ -21,15 +24,17 @@ extern "C" {
 typedef struct sampler {
     sampler_kind kind;
     uint32_t seed;
-    uint32_t index_mask; /* 2^k - 1 with 2^k >= samples per pixel */
+    uint32_t sample_bits; /* k with 2^k >= samples per pixel */
+    uint32_t side_bits;   /* squares of 2^side_bits pixels a side share a point set */
+    uint32_t index_mask;  /* 2^(k + 2 side_bits) - 1: of its points */
 } sampler;
 
 sampler sampler_create(sampler_kind kind, uint32_t seed, uint32_t spp);
 
 /* One path's position in its sequence. */
 typedef struct sample_stream {
-    uint32_t pixel; /* hash of the pixel and the seed */
-    uint32_t index; /* of the sample in the pixel */
+    uint32_t pixel; /* hash of the pixel's square and the seed */
+    uint32_t index; /* of the point: the pixel's place in its square, then the sample's in the pixel */
 } sample_stream;
 
 sample_stream sampler_start(const sampler *s, uint32_t x, uint32_t y, uint32_t index);

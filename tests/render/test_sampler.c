@@ -71,6 +71,48 @@ static void each_aligned_run_is_stratified(void **state)
         }
 }
 
+/* Each aligned square of pixels holds a whole set, too: neighbours complement each other. */
+static void squares_of_pixels_are_stratified_together(void **state)
+{
+    (void)state;
+    for (uint32_t side = 2; side <= 16; side *= 2)
+        for (uint32_t spp = 1; spp*side*side <= 1024; spp *= 4) {
+            const sampler s = sampler_create(SAMPLER_SOBOL, 17, spp);
+            const uint32_t n = spp*side*side;
+            int k = 0;
+            while (1u << k < n) k++;
+            for (int a = 0; a <= k; a++) {
+                uint8_t count[1024] = {0};
+                for (uint32_t i = 0; i < n; i++) {
+                    const sample_point p = point_of(&s, 48 + i%side, 80 + i/side%side, i/side/side, 3);
+                    count[((uint64_t)p.u[0] >> (32 - a)) << (k - a) | (uint64_t)p.u[1] >> (32 - (k - a))]++;
+                }
+                for (uint32_t i = 0; i < n; i++) assert_int_equal(count[i], 1);
+            }
+        }
+}
+
+/* The error of an integral that each pixel estimates from one sample: sums over squares of pixels have less of it than
+ * as many independent samples have. */
+static void errors_of_neighbours_cancel(void **state)
+{
+    (void)state;
+    enum { SIDE = 64, BLOCK_SIDE = 4 };
+    const sampler s = sampler_create(SAMPLER_SOBOL, 4, 1);
+    double squares = 0, of_blocks = 0, sums[SIDE/BLOCK_SIDE][SIDE/BLOCK_SIDE] = {{0}};
+    for (uint32_t y = 0; y < SIDE; y++)
+        for (uint32_t x = 0; x < SIDE; x++) {
+            const sample_point p = point_of(&s, x, y, 0, 2);
+            const double u = p.u[0]*0x1p-32, v = p.u[1]*0x1p-32, error = 4*u*v - 1;
+            squares += error*error/SIDE/SIDE;
+            sums[y/BLOCK_SIDE][x/BLOCK_SIDE] += error/BLOCK_SIDE/BLOCK_SIDE;
+        }
+    for (int i = 0; i < SIDE*SIDE/BLOCK_SIDE/BLOCK_SIDE; i++) of_blocks += pow((&sums[0][0])[i], 2);
+    of_blocks /= SIDE*SIDE/BLOCK_SIDE/BLOCK_SIDE;
+    assert_true(fabs(squares/(7/9.0) - 1) < 0.1);               /* of one sample */
+    assert_true(of_blocks < 0.1*squares/BLOCK_SIDE/BLOCK_SIDE); /* a tenth of independent ones' variance */
+}
+
 /* Without scrambling the sets of two pixels would be equal up to order: their points differ in the last digits. */
 static void scrambling_moves_points_inside_their_strata(void **state)
 {
@@ -128,7 +170,7 @@ static void groups_and_pixels_are_uncorrelated(void **state)
             for (int e = 0; e < 3; e++) {
                 for (uint32_t group = 1; group < 5; group++, n++) /* between groups */
                     worst = fmax(worst, fabs(correlation(&s, 0, 0, 0, group, d, e)));
-                for (uint32_t dx = 1; dx < 4; dx++, n++) /* between neighbours */
+                for (uint32_t dx = 32; dx < 128; dx += 32, n++) /* between pixels of different squares */
                     worst = fmax(worst, fabs(correlation(&s, dx, 0, 2, 2, d, e)));
                 if (d != e) worst = fmax(worst, fabs(correlation(&s, 0, 0, 2, 2, d, e))), n++; /* inside a point */
                 if (kind == SAMPLER_RANDOM) worst = fmax(worst, fabs(correlation(&s, 0, 1, 2, 2, d, e))), n++;
@@ -194,8 +236,9 @@ static void numbers_are_repeatable(void **state)
         }
         assert_int_equal(n_equal, 0);
     }
-    assert_int_equal(sampler_create(SAMPLER_SOBOL, 0, 1).index_mask, 0);
-    assert_int_equal(sampler_create(SAMPLER_SOBOL, 0, 1u << 24).index_mask, (1u << 24) - 1);
+    assert_int_equal(sampler_create(SAMPLER_SOBOL, 0, 1).index_mask, (1u << 10) - 1);
+    assert_int_equal(sampler_create(SAMPLER_SOBOL, 0, 3).index_mask, (1u << 12) - 1);
+    assert_int_equal(sampler_create(SAMPLER_SOBOL, 0, 1u << 24).index_mask, UINT32_MAX); /* squares of 16 x 16 */
 }
 
 static void a_fraction_stays_below_one(void **state)
@@ -238,6 +281,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_group_is_stratified),
         cmocka_unit_test(each_aligned_run_is_stratified),
+        cmocka_unit_test(squares_of_pixels_are_stratified_together),
+        cmocka_unit_test(errors_of_neighbours_cancel),
         cmocka_unit_test(scrambling_moves_points_inside_their_strata),
         cmocka_unit_test(numbers_are_uniform),
         cmocka_unit_test(groups_and_pixels_are_uncorrelated),
