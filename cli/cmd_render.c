@@ -11,6 +11,7 @@
 #include "cli/interruption.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
+#include "cli/ranks.h"
 #include "cli/render_job.h"
 #include "cli/report.h"
 
@@ -94,18 +95,37 @@ static int finish(const render_options *o, const saver *saved, const render_stat
     return status ? status : is_interrupted() ? EXIT_INTERRUPTED : 0;
 }
 
-static int render_scene(render_options *o, warning_list *warnings)
+/* Everything up to rendering, by each rank for itself but for what the leader alone reads. */
+static int prepare(render_options *o, warning_list *warnings, int status, const char *error, scene **s,
+                   render_settings *r, render_state *state)
+{
+    const crew *c = o->crew;
+    size_t i_camera = 0;
+    char isa[16] = "";
+    if (!status) status = prepare_scene(o, warnings, s, &i_camera);
+    if (!status) status = prepare_settings(o, *s, i_camera, r);
+    if (!status && o->resume && (!c || c->rank == 0)) status = resume_checkpoint(o, *s, r, state);
+    if (!c) return status;
+    status = ranks_agree(c, status, error);
+    if (status) return status;
+    r->crew = c;
+    if (!r->n_threads) r->n_threads = ranks_threads();
+    if (r->isa) snprintf(isa, sizeof isa, "%s", r->isa);
+    crew_share(c, isa, sizeof isa);
+    r->isa = isa[0] ? static_isa(isa) : NULL;
+    return 0;
+}
+
+/* The last part of the render that one process does, and the first in which it fails if `status` says so already. */
+static int render_scene(render_options *o, warning_list *warnings, int status, const char *error)
 {
     facet_error why = {0};
     scene *s = NULL;
-    size_t i_camera = 0;
     render_settings r;
     render_state state = {0};
     render_result result = {0};
     watch w = {.progress = progress_start(o->quiet), .events = warnings->events};
-    int status = prepare_scene(o, warnings, &s, &i_camera);
-    if (!status) status = prepare_settings(o, s, i_camera, &r);
-    if (!status && o->resume) status = resume_checkpoint(o, s, &r, &state);
+    status = prepare(o, warnings, status, error, &s, &r, &state);
     if (!status) {
         r.progress = on_progress;
         r.save = o->checkpoint ? on_save : NULL;
@@ -116,10 +136,11 @@ static int render_scene(render_options *o, warning_list *warnings)
         catch_signals();
         const facet_status failed = render_continue(s, &r, &state, &result, &why);
         progress_end(&w.progress);
+        ranks_end();
         if (failed && state.film.pixels && !o->isa && strcmp(why.place, "isa") == 0)
             status = fail(EXIT_INPUT, o->resume, NULL, "was made with --isa %s, which this processor lacks", r.isa);
         else if (failed) status = fail_with(FROM_INPUT, o->scene_path, &why);
-        else status = finish(o, &w.saver, &state, &result, warnings);
+        else if (!o->crew || o->crew->rank == 0) status = finish(o, &w.saver, &state, &result, warnings);
     }
     events_done(warnings->events, o, &result, status);
     render_result_destroy(&result);
@@ -150,33 +171,61 @@ static void warn_of_useless(const render_options *o, warning_list *warnings)
         keep_warning(warnings, "--exposure has no effect: .exr files keep the scene's own radiance");
 }
 
+/* The leader's files; the others neither read checkpoints nor write anything. */
+static int check_files(render_options *o, warning_list *warnings)
+{
+    int status = o->outputs.n == 0 && !o->shard ? name_output(o) : 0;
+    if (!status) status = check_outputs(o);
+    if (!status) status = check_checkpointing(o);
+    if (!status) status = events_open(warnings->events, o->events);
+    if (!status) warn_of_useless(o, warnings);
+    return status;
+}
+
+static int render_with(render_options *o, int argc, char **argv, warning_list *warnings, const char *error)
+{
+    int status = 0;
+    if (o->scene_path && strcmp(o->scene_path, "demo") == 0) o->scene_path = NULL;
+    o->command_line = quote_command(argc, argv);
+    if (!o->command_line) status = fail_memory();
+    if (!status && (!o->crew || o->crew->rank == 0)) status = check_files(o, warnings);
+    else if (o->crew) {
+        o->checkpoint = o->resume = NULL;
+        o->quiet = true;
+    }
+    return status && !o->crew ? status : render_scene(o, warnings, status, error);
+}
+
 static int run(int argc, char **argv)
 {
     render_options o = {.depth = DEFAULT_DEPTH,
                         .strategy = "mis",
                         .sampler = "sobol",
                         .view = "filmic",
+                        .mpi = "auto",
                         .checkpoint_interval = {.value = DEFAULT_INTERVAL}};
     event_log events = {0};
     warning_list warnings = {.events = &events};
+    crew c;
+    launch by;
+    char error[1024] = "";
+    const bool is_launched = find_launch(&by);
+    if (is_launched && by.rank > 0) keep_silent(error, sizeof error);
     int status = options_parse(&render_command, argc, argv, &o, &o.scene_path);
     if (status != PARSE_GO) return status;
-    if (o.scene_path && strcmp(o.scene_path, "demo") == 0) o.scene_path = NULL;
-    o.command_line = quote_command(argc, argv);
-    status = o.command_line ? 0 : fail_memory();
-    if (!status && o.outputs.n == 0 && !o.shard) status = name_output(&o);
-    if (!status) status = check_outputs(&o);
-    if (!status) status = check_checkpointing(&o);
-    if (!status) status = events_open(&events, o.events);
-    if (!status) {
-        warn_of_useless(&o, &warnings);
-        status = render_scene(&o, &warnings);
+    status = 0;
+    if (strcmp(o.mpi, "off") == 0) keep_silent(NULL, 0);
+    else if (is_launched || strcmp(o.mpi, "on") == 0) {
+        status = ranks_start(&c, &by);
+        if (!status) o.crew = &c;
     }
+    if (!status || o.crew) status = render_with(&o, argc, argv, &warnings, error);
+    ranks_end();
     events_close(&events);
     warning_list_destroy(&warnings);
     free(o.default_output);
     free(o.command_line);
-    return status;
+    return o.crew && o.crew->rank > 0 ? 0 : status; /* of mpirun, which takes any other: the leader's */
 }
 
 #define AT(member) offsetof(render_options, member)
@@ -196,7 +245,7 @@ static const option options[] = {
     {"env-scale", 0, OPTION_NUMBER, AT(env_scale), "X", "multiply the environment by X (default 1)", 0, 1e30, NULL},
     {"depth", 0, OPTION_INTEGER, AT(depth), "N", "most scattering events on a path (default 8)", 0, 4096, NULL},
     {"threads", 't', OPTION_INTEGER, AT(threads), "N",
-     "threads; the picture does not depend on them (default: one per processor)", 1, 1024, NULL},
+     "threads (of each process); the picture does not depend on them (default: one per processor)", 1, 1024, NULL},
     {"seed", 0, OPTION_INTEGER, AT(seed), "N", "seed of the samples (default 0)", 0, UINT32_MAX, NULL},
     {"crop", 0, OPTION_RECT, AT(crop), "X,Y,W,H", "render only this part of the picture [pixel]", 0, 0, NULL},
     {"time", 0, OPTION_NUMBER, AT(time), "SECONDS", "stop after this time", 1e-3, 1e9, NULL},
@@ -221,6 +270,10 @@ static const option options[] = {
      0, 0, NULL},
     {"shard", 0, OPTION_TEXT, AT(shard), "K/N",
      "render only the K-th of N parts of the samples, as --checkpoint FILE; `facet merge` adds them up", 0, 0, NULL},
+    {"mpi", 0, OPTION_CHOICE, AT(mpi), NULL,
+     "whether processes that mpirun or srun started render together: auto (default) where there are several, on, off "
+     "(each on its own)",
+     0, 0, "auto|on|off"},
     {"exposure", 0, OPTION_NUMBER, AT(exposure), "EV", ".png: brighten by 2^EV (default 0)", -50, 50, NULL},
     {"view", 0, OPTION_CHOICE, AT(view), NULL, ".png: how radiance becomes display values (default filmic)", 0, 0,
      "standard|filmic|agx"},

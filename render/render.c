@@ -8,27 +8,9 @@
 #include <time.h>
 
 #include "core/error.h"
-#include "render/path.h"
+#include "render/crew.h"
+#include "render/render_run.h"
 #include "render/surface.h"
-#include "render/thread_pool.h"
-
-/* What a thread has to itself; padded so that two threads' counts do not share a cache line. */
-typedef struct worker {
-    path_batch *batch;
-    path_counts counts;
-    char padding[64];
-} worker;
-
-typedef struct job {
-    path_context context;
-    render_state *state;
-    uint32_t n_tiles_x, n_tiles;
-    uint32_t first_sample, n_share; /* the samples of each pixel that are to be rendered */
-    uint32_t target;                /* this pass ends when each pixel has so many */
-    worker *workers;
-    uint32_t n_workers;
-    uint64_t n_samples; /* of all pixels; atomic */
-} job;
 
 void render_settings_defaults(render_settings *settings)
 {
@@ -42,38 +24,40 @@ static double read_clock(clockid_t clock)
     return (double)t.tv_sec + 1e-9*(double)t.tv_nsec;
 }
 
-static double now(void)
+double run_now(void)
 {
     return read_clock(CLOCK_MONOTONIC);
 }
 
-static tile tile_at(const job *j, uint32_t piece)
+tile job_tile(const job *j, uint32_t piece)
 {
     const uint32_t x0 = piece%j->n_tiles_x*TILE_SIZE, y0 = piece/j->n_tiles_x*TILE_SIZE;
     const uint32_t w = (uint32_t)j->state->film.width, h = (uint32_t)j->state->film.height;
     return (tile){x0, y0, x0 + TILE_SIZE < w ? x0 + TILE_SIZE : w, y0 + TILE_SIZE < h ? y0 + TILE_SIZE : h};
 }
 
-/* The samples that each pixel of a tile has. */
-static uint32_t tile_position(const job *j, tile where)
+uint32_t job_position(const job *j, tile where)
 {
     const film *f = &j->state->film;
     return f->pixels[where.y0*f->width + where.x0].n;
+}
+
+void job_run_tile(job *j, tile where, uint32_t begin, uint32_t end, uint32_t thread)
+{
+    worker *own = &j->workers[thread];
+    if (begin >= end) return;
+    for (uint32_t i = begin; i < end; i++)
+        path_batch_run(own->batch, &j->context, where, j->first_sample + i, &j->state->film, &own->counts);
+    const uint64_t n_pixels = (uint64_t)(where.x1 - where.x0)*(where.y1 - where.y0);
+    __atomic_fetch_add(&j->n_samples, n_pixels*(end - begin), __ATOMIC_RELAXED);
 }
 
 /* A thread_pool_job: all samples of this pass in one tile. */
 static void run_tile(void *user, uint32_t piece, uint32_t thread)
 {
     job *j = user;
-    const tile where = tile_at(j, piece);
-    const uint32_t begin = tile_position(j, where);
-    worker *own = &j->workers[thread];
-    for (uint32_t i = begin; i < j->target; i++)
-        path_batch_run(own->batch, &j->context, where, j->first_sample + i, &j->state->film, &own->counts);
-    if (begin < j->target) {
-        const uint64_t n_pixels = (uint64_t)(where.x1 - where.x0)*(where.y1 - where.y0);
-        __atomic_fetch_add(&j->n_samples, n_pixels*(j->target - begin), __ATOMIC_RELAXED);
-    }
+    const tile where = job_tile(j, piece);
+    job_run_tile(j, where, job_position(j, where), j->target, thread);
 }
 
 static facet_status check_settings(const scene *s, const render_settings *r, facet_error *why)
@@ -106,6 +90,7 @@ static void job_destroy(job *j)
     light_set_destroy((light_set *)j->context.lights);
     surface_set_destroy((surface_set *)j->context.surfaces);
     tracer_destroy((tracer *)j->context.tracer);
+    *j = (job){0};
 }
 
 /* Makes an empty state's film, or takes the positions of a state's tiles. */
@@ -120,8 +105,8 @@ static facet_status adopt_state(job *j, const render_settings *r, facet_error *w
         return facet_error_set(why, FACET_BAD_VALUE, "size", "%zux%zu is not the picture's %zux%zu", f->width,
                                f->height, r->crop_w, r->crop_h);
     for (uint32_t i = 0; i < j->n_tiles; i++) {
-        const tile where = tile_at(j, i);
-        const uint32_t position = tile_position(j, where);
+        const tile where = job_tile(j, i);
+        const uint32_t position = job_position(j, where);
         bool is_even = position <= j->n_share;
         for (uint32_t y = where.y0; y < where.y1; y++)
             for (uint32_t x = where.x0; x < where.x1; x++) is_even &= f->pixels[y*f->width + x].n == position;
@@ -169,32 +154,17 @@ static facet_status job_create(const scene *s, const render_settings *r, uint32_
 
 /* Passes grow, so that the first pictures come soon and later ones waste no time on waiting for the last tile.  Their
  * ends depend on nothing but the samples done, so that a continued render looks at its noise where it would have. */
-static uint32_t pass_length(uint32_t n_done, uint32_t n_share)
+uint32_t pass_length(uint32_t n_done, uint32_t n_share)
 {
     const uint32_t length = n_done < 4 ? 1 : n_done/4 < 16 ? n_done/4 : 16;
     return length < n_share - n_done ? length : n_share - n_done;
 }
 
-/* Between two reports of progress [s]. */
-static const double PROGRESS_INTERVAL = 0.1;
-
-/* One call's way through the passes. */
-typedef struct run {
-    job *job;
-    const render_settings *settings;
-    double start, start_cpu;     /* of this call [s] */
-    double seconds, cpu_seconds; /* of the calls before */
-    uint64_t n_samples;          /* of the calls before */
-    double told, saved;          /* when progress was last reported and the state last saved */
-    double noise;                /* negative while unknown */
-    bool is_wanted;              /* nobody has asked for the end */
-} run;
-
 /* Asks for an early end if the progress callback does. */
-static void tell(run *u)
+void run_tell(run *u)
 {
     const render_settings *r = u->settings;
-    u->told = now();
+    u->told = run_now();
     if (!r->progress) return;
     const uint64_t n_pixels = (uint64_t)r->crop_w*r->crop_h;
     const double elapsed = u->told - u->start, total = u->seconds + elapsed;
@@ -215,12 +185,11 @@ static void tell(run *u)
     if (!r->progress(r->user, &p)) u->is_wanted = false;
 }
 
-/* Brings the state's figures up to date; no thread may be at work. */
-static void collect(const run *u)
+void run_collect(const run *u)
 {
     const job *j = u->job;
     render_state *state = j->state;
-    state->seconds = u->seconds + now() - u->start;
+    state->seconds = u->seconds + run_now() - u->start;
     state->cpu_seconds = u->cpu_seconds + read_clock(CLOCK_PROCESS_CPUTIME_ID) - u->start_cpu;
     for (uint32_t i = 0; i < j->n_workers; i++) {
         path_counts *c = &j->workers[i].counts;
@@ -237,26 +206,32 @@ static void collect(const run *u)
 static void save(run *u)
 {
     if (!u->settings->save) return;
-    collect(u);
+    run_collect(u);
     u->settings->save(u->settings->user, u->job->state);
-    u->saved = now();
+    u->saved = run_now();
 }
 
-static bool is_save_due(const run *u)
+bool run_is_save_due(const run *u)
 {
-    return u->settings->save && now() - u->saved >= u->settings->save_interval;
+    return u->settings->save && run_now() - u->saved >= u->settings->save_interval;
 }
 
-/* Between which positions the tiles are. */
-static void find_positions(const job *j, uint32_t *least, uint32_t *most)
+void job_positions(const job *j, uint32_t *least, uint32_t *most)
 {
     *least = UINT32_MAX;
     *most = 0;
     for (uint32_t i = 0; i < j->n_tiles; i++) {
-        const uint32_t position = tile_position(j, tile_at(j, i));
+        const uint32_t position = job_position(j, job_tile(j, i));
         *least = position < *least ? position : *least;
         *most = position > *most ? position : *most;
     }
+}
+
+uint32_t job_passed(const job *j, uint32_t least)
+{
+    uint32_t passed = 0;
+    for (uint32_t n; passed < least && passed + (n = pass_length(passed, j->n_share)) <= least;) passed += n;
+    return passed;
 }
 
 /* Renders the tiles that are behind the target; true when all are there. */
@@ -264,26 +239,25 @@ static bool run_pass(run *u, thread_pool *pool)
 {
     for (;;) {
         uint32_t least, most;
-        find_positions(u->job, &least, &most);
+        job_positions(u->job, &least, &most);
         if (least >= u->job->target) return true;
         /* The first pass is finished, so that there is a whole picture; later ones need not be. */
         if (!u->is_wanted && u->job->state->spp > 0) return false;
         thread_pool_start(pool, run_tile, u->job, u->job->n_tiles);
         while (!thread_pool_wait(pool, PROGRESS_INTERVAL)) {
-            tell(u);
-            if ((!u->is_wanted && u->job->state->spp > 0) || is_save_due(u)) thread_pool_cancel(pool);
+            run_tell(u);
+            if ((!u->is_wanted && u->job->state->spp > 0) || run_is_save_due(u)) thread_pool_cancel(pool);
         }
-        if (is_save_due(u)) save(u);
+        if (run_is_save_due(u)) save(u);
     }
 }
 
-/* Whether an end is reached between passes. */
-static bool is_over(const run *u)
+bool run_is_over(const run *u)
 {
     const render_settings *r = u->settings;
     const uint32_t spp = u->job->state->spp;
     if (!u->is_wanted || spp == u->job->n_share) return true;
-    if (r->time_limit > 0 && spp > 0 && u->seconds + now() - u->start >= r->time_limit) return true;
+    if (r->time_limit > 0 && spp > 0 && u->seconds + run_now() - u->start >= r->time_limit) return true;
     return r->noise_target > 0 && u->noise >= 0 && spp >= 16 && u->noise <= r->noise_target;
 }
 
@@ -292,20 +266,71 @@ static void run_passes(run *u, thread_pool *pool)
 {
     job *j = u->job;
     uint32_t least, most;
-    find_positions(j, &least, &most);
-    j->state->spp = 0;
-    for (uint32_t n; j->state->spp < least && j->state->spp + (n = pass_length(j->state->spp, j->n_share)) <= least;)
-        j->state->spp += n;
+    job_positions(j, &least, &most);
+    j->state->spp = job_passed(j, least);
     if (least == most) u->noise = film_noise(&j->state->film);
-    while (!is_over(u)) {
+    while (!run_is_over(u)) {
         j->target = j->state->spp + pass_length(j->state->spp, j->n_share);
         if (!run_pass(u, pool)) break;
         j->state->spp = j->target;
         u->noise = film_noise(&j->state->film);
-        if (now() - u->told >= PROGRESS_INTERVAL) tell(u); /* short passes end before the wait does */
-        if (is_save_due(u)) save(u);
+        if (run_now() - u->told >= PROGRESS_INTERVAL) run_tell(u); /* short passes end before the wait does */
+        if (run_is_save_due(u)) save(u);
     }
-    tell(u);
+    run_tell(u);
+}
+
+/* A number that differs between renders of other settings. */
+static uint64_t identity_of(const scene *s, const render_settings *r)
+{
+    const uint64_t words[] = {s->hash,
+                              r->width,
+                              r->height,
+                              r->crop_x,
+                              r->crop_y,
+                              r->crop_w,
+                              r->crop_h,
+                              r->camera,
+                              r->spp,
+                              r->depth,
+                              r->seed,
+                              r->shard,
+                              r->shard,
+                              r->n_shards,
+                              (uint64_t)r->strategy,
+                              (uint64_t)r->sampler};
+    uint64_t hash = 0xcbf29ce484222325; /* FNV-1a, by words */
+    for (size_t i = 0; i < sizeof words/sizeof *words; i++) hash = (hash ^ words[i])*0x100000001b3;
+    return hash;
+}
+
+/* All that a run needs; on failure what was made remains to be destroyed. */
+static facet_status run_create(const scene *s, const render_settings *r, render_state *state, job *j, run *u,
+                               thread_pool **pool, crew_part **part, facet_error *why)
+{
+    const uint32_t n_threads = r->n_threads ? r->n_threads : thread_pool_default_size();
+    facet_status status = check_settings(s, r, why);
+    if (!status) status = job_create(s, r, n_threads, state, j, why);
+    if (status) return status;
+    status = thread_pool_create(n_threads, tracer_prepare_thread, pool);
+    if (status) return facet_error_set(why, status, "threads", "cannot start %u threads", n_threads);
+    *u = (run){.job = j,
+               .settings = r,
+               .seconds = state->seconds,
+               .cpu_seconds = state->cpu_seconds,
+               .n_samples = j->n_samples,
+               .noise = -1,
+               .is_wanted = true};
+    if (r->crew && (status = crew_prepare(r->crew, u, *pool, part)) != FACET_OK)
+        return facet_error_set(why, status, "size", "no memory for a picture of %zux%zu", r->crop_w, r->crop_h);
+    return FACET_OK;
+}
+
+static void run_destroy(job *j, thread_pool *pool, crew_part *part)
+{
+    thread_pool_destroy(pool);
+    crew_unprepare(part);
+    job_destroy(j);
 }
 
 facet_status render_continue(const scene *s, const render_settings *settings, render_state *state,
@@ -316,41 +341,33 @@ facet_status render_continue(const scene *s, const render_settings *settings, re
         r.crop_w = r.width;
         r.crop_h = r.height;
     }
-    facet_status status = check_settings(s, &r, why);
-    if (status) return status;
-    const uint32_t n_threads = r.n_threads ? r.n_threads : thread_pool_default_size();
-    const double begin = now();
-    job j;
-    status = job_create(s, &r, n_threads, state, &j, why);
-    if (status) return status;
+    const double begin = run_now();
+    job j = {0};
+    run u;
     thread_pool *pool = NULL;
-    status = thread_pool_create(n_threads, tracer_prepare_thread, &pool);
+    crew_part *part = NULL;
+    facet_status status = run_create(s, &r, state, &j, &u, &pool, &part, why);
+    if (r.crew) status = crew_agree(r.crew, part, status, identity_of(s, &r), state->isa, why);
     if (status) {
-        job_destroy(&j);
-        return facet_error_set(why, status, "threads", "cannot start %u threads", n_threads);
+        run_destroy(&j, pool, part);
+        return status;
     }
-    const double start = now();
-    run u = {.job = &j,
-             .settings = &r,
-             .start = start,
-             .start_cpu = read_clock(CLOCK_PROCESS_CPUTIME_ID),
-             .seconds = state->seconds,
-             .cpu_seconds = state->cpu_seconds,
-             .n_samples = j.n_samples,
-             .told = start,
-             .saved = start,
-             .noise = -1,
-             .is_wanted = true};
-    run_passes(&u, pool);
-    thread_pool_destroy(pool);
-    save(&u);
-    collect(&u);
-    status = render_develop(state, result, why);
+    u.start = u.told = u.saved = run_now();
+    u.start_cpu = read_clock(CLOCK_PROCESS_CPUTIME_ID);
+    if (part) crew_run(part);
+    else run_passes(&u, pool);
+    if (r.crew && r.crew->rank > 0) {
+        *result = (render_result){.isa = state->isa};
+    } else {
+        save(&u);
+        run_collect(&u);
+        status = render_develop(state, result, why);
+    }
     if (status == FACET_OK) {
-        result->setup_seconds = start - begin;
+        result->setup_seconds = u.start - begin;
         result->is_complete = state->spp == j.n_share;
     }
-    job_destroy(&j);
+    run_destroy(&j, pool, part);
     return status;
 }
 

@@ -76,6 +76,7 @@ typedef struct render_settings {
     void (*save)(void *user, const render_state *state);
     double save_interval;
     void *user;
+    const struct crew *crew; /* processes that share this render (crew.h); NULL: this one alone */
 } render_settings;
 
 void render_settings_defaults(render_settings *settings);
@@ -100,7 +101,8 @@ facet_status render(const scene *s, const render_settings *settings, render_resu
 void render_result_destroy(render_result *result);
 
 /* Renders what is left to do: all, if *state is zero, else what a state of the same scene and settings leaves.  The
- * state remains the caller's to destroy.  FACET_BAD_VALUE for one that these settings cannot have made. */
+ * state remains the caller's to destroy.  FACET_BAD_VALUE for one that these settings cannot have made.  In a crew all
+ * but the leader begin with a zero state and end with an empty result. */
 facet_status render_continue(const scene *s, const render_settings *settings, render_state *state,
                              render_result *result, facet_error *why);
 void render_state_destroy(render_state *state);
