@@ -82,17 +82,18 @@ static int finish(const render_options *o, const saver *saved, const render_stat
     if (result->n_clamped)
         keep_warning(warnings, "%" PRIu64 " samples were beyond a radiance of %.2g and count as that",
                      result->n_clamped, (double)FILM_MOST);
+    const bool is_stopped = result->is_stopped || is_interrupted();
     provenance p;
     provenance_collect(&p, o, saved->scene, saved->settings, state);
     int status = write_outputs(o, &p, &result->picture);
     if (!status && !o->quiet) summarise(o, result);
     if (saved->why.status) status = fail_with(FROM_OUTPUT, o->checkpoint, &saved->why);
-    if (is_interrupted() && !o->quiet) tell_interruption(o, result);
+    if (is_stopped && !o->quiet) tell_interruption(o, result);
     if (o->json) {
-        print_render_json(o, saved->settings, result, warnings, is_interrupted());
+        print_render_json(o, saved->settings, result, warnings, is_stopped);
         status = finish_stdout(status);
     }
-    return status ? status : is_interrupted() ? EXIT_INTERRUPTED : 0;
+    return status ? status : is_stopped ? EXIT_INTERRUPTED : 0;
 }
 
 /* Everything up to rendering, by each rank for itself but for what the leader alone reads. */

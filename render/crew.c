@@ -50,6 +50,7 @@ facet_status crew_prepare(const crew *c, run *u, thread_pool *pool, crew_part **
     part->n_buffer = share < MOST_BLOCK ? share : MOST_BLOCK;
     part->buffer = malloc(part->n_buffer*sizeof *part->buffer);
     part->positions = malloc(j->n_tiles*sizeof *part->positions);
+    part->is_tile_busy = calloc(j->n_tiles, sizeof *part->is_tile_busy);
     part->peers = calloc(c->n_ranks, sizeof *part->peers);
     pthread_condattr_t monotonic;
     pthread_condattr_init(&monotonic);
@@ -59,7 +60,7 @@ facet_status crew_prepare(const crew *c, run *u, thread_pool *pool, crew_part **
     pthread_cond_init(&part->low, &monotonic);
     pthread_condattr_destroy(&monotonic);
     *result = part;
-    return part->buffer && part->positions && part->peers ? FACET_OK : FACET_NO_MEMORY;
+    return part->buffer && part->positions && part->is_tile_busy && part->peers ? FACET_OK : FACET_NO_MEMORY;
 }
 
 void crew_unprepare(crew_part *part)
@@ -69,6 +70,7 @@ void crew_unprepare(crew_part *part)
     pthread_cond_destroy(&part->work);
     pthread_mutex_destroy(&part->lock);
     free(part->peers);
+    free(part->is_tile_busy);
     free(part->positions);
     free(part->buffer);
     free(part->ends);

@@ -48,10 +48,15 @@ uint64_t part_units_to(const crew_part *part, uint32_t n)
     return (uint64_t)low*part->run->job->n_tiles;
 }
 
+static uint32_t tile_of(const crew_part *part, uint64_t unit)
+{
+    return (uint32_t)(unit%part->run->job->n_tiles);
+}
+
 static void run_unit(const crew_part *part, uint64_t unit, uint32_t thread)
 {
     job *j = part->run->job;
-    const uint32_t range = (uint32_t)(unit/j->n_tiles), i = (uint32_t)(unit%j->n_tiles);
+    const uint32_t range = (uint32_t)(unit/j->n_tiles), i = tile_of(part, unit);
     const uint32_t begin = range ? part->ends[range - 1] : 0, had = part->positions[i];
     job_run_tile(j, job_tile(j, i), begin > had ? begin : had, part->ends[range], thread);
 }
@@ -67,31 +72,38 @@ void part_push(crew_part *part, uint64_t first, uint32_t n)
     pthread_mutex_unlock(&part->lock);
 }
 
-/* The next unit of the queue, which is not empty; the caller holds the lock. */
-static uint64_t pop(crew_part *part)
+/* Takes a unit whose tile no other thread is at, marking that; false if there is none.  The caller holds the lock. */
+static bool pop(crew_part *part, uint64_t *unit)
 {
-    const uint64_t unit = part->spans[0].first++;
+    uint32_t i = 0;
+    while (i < part->n_spans && part->is_tile_busy[tile_of(part, part->spans[i].first)]) i++;
+    if (i == part->n_spans) return false;
+    unit_span *s = &part->spans[i];
+    *unit = s->first++;
+    if (--s->n == 0) memmove(s, s + 1, (--part->n_spans - i)*sizeof *s);
+    part->is_tile_busy[tile_of(part, *unit)] = true;
     part->n_queued--;
-    if (--part->spans[0].n == 0) memmove(part->spans, part->spans + 1, --part->n_spans*sizeof *part->spans);
-    return unit;
+    part->n_busy++;
+    return true;
 }
 
 void part_work(void *user, uint32_t piece, uint32_t thread)
 {
     crew_part *part = user;
+    uint64_t unit;
     (void)piece;
     pthread_mutex_lock(&part->lock);
     for (;;) {
-        while (!part->is_over && part->n_queued == 0) pthread_cond_wait(&part->work, &part->lock);
-        if (part->n_queued == 0) break;
-        const uint64_t unit = pop(part);
-        part->n_busy++;
+        while (!part->is_over && !pop(part, &unit)) pthread_cond_wait(&part->work, &part->lock);
+        if (part->is_over) break;
         if (part->n_queued < part->n_threads) pthread_cond_signal(&part->low);
         pthread_mutex_unlock(&part->lock);
         run_unit(part, unit, thread);
         pthread_mutex_lock(&part->lock);
+        part->is_tile_busy[tile_of(part, unit)] = false;
         part->n_busy--;
-        if (part->n_busy == 0 && part->n_queued == 0) pthread_cond_signal(&part->low);
+        if (part->n_queued > 0) pthread_cond_signal(&part->work); /* one may wait for this tile */
+        else if (part->n_busy == 0) pthread_cond_signal(&part->low);
     }
     pthread_mutex_unlock(&part->lock);
 }

@@ -42,7 +42,8 @@ struct crew_part {
     pthread_cond_t work, low; /* there are units; there are few */
     unit_span spans[MOST_SPANS];
     uint32_t n_spans, n_queued, n_busy;
-    bool is_over;
+    bool *is_tile_busy; /* [n_tiles] a thread adds to it */
+    bool is_over;       /* nothing is queued or under way any more */
     /* the leader's */
     uint64_t next, limit, n_units; /* units handed out; that may be; in all */
     crew_peer *peers;              /* [n_ranks] */

@@ -366,6 +366,7 @@ facet_status render_continue(const scene *s, const render_settings *settings, re
     if (status == FACET_OK) {
         result->setup_seconds = u.start - begin;
         result->is_complete = state->spp == j.n_share;
+        result->is_stopped = !u.is_wanted;
     }
     run_destroy(&j, pool, part);
     return status;

@@ -85,6 +85,7 @@ typedef struct render_result {
     image picture;    /* F32 RGB, crop_w x crop_h, linear radiance */
     uint32_t spp;     /* samples per pixel reached */
     bool is_complete; /* all of settings.spp; false after time, noise or a requested end */
+    bool is_stopped;  /* the end was requested, by progress, here or on another rank */
     uint64_t n_paths, n_rays, n_shadow_rays;
     uint64_t n_bad; /* samples that were NaN or infinite */
     bad_sample bad[RENDER_MAX_REPORTED];
