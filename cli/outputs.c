@@ -111,6 +111,7 @@ void print_render_json(const render_options *o, const render_settings *settings,
     json_put_integer(&j, "height", result->picture.height);
     json_put_integer(&j, "spp", result->spp);
     json_put_integer(&j, "seed", settings->seed);
+    json_put_integer(&j, "ranks", settings->crew ? settings->crew->n_ranks : 1);
     json_put_bool(&j, "complete", result->is_complete);
     json_put_bool(&j, "interrupted", is_interrupted);
     json_put_number(&j, "seconds", round(1e6*result->seconds)/1e6);
