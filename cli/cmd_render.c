@@ -137,7 +137,7 @@ static int render_scene(render_options *o, warning_list *warnings, int status, c
         catch_signals();
         const facet_status failed = render_continue(s, &r, &state, &result, &why);
         progress_end(&w.progress);
-        ranks_end();
+        ranks_part();
         if (failed && state.film.pixels && !o->isa && strcmp(why.place, "isa") == 0)
             status = fail(EXIT_INPUT, o->resume, NULL, "was made with --isa %s, which this processor lacks", r.isa);
         else if (failed) status = fail_with(FROM_INPUT, o->scene_path, &why);
@@ -221,11 +221,11 @@ static int run(int argc, char **argv)
         if (!status) o.crew = &c;
     }
     if (!status || o.crew) status = render_with(&o, argc, argv, &warnings, error);
-    ranks_end();
     events_close(&events);
     warning_list_destroy(&warnings);
     free(o.default_output);
     free(o.command_line);
+    ranks_end(status);
     return o.crew && o.crew->rank > 0 ? 0 : status; /* of mpirun, which takes any other: the leader's */
 }
 

@@ -112,10 +112,45 @@ uint32_t ranks_threads(void)
     return n > 1 ? (uint32_t)n : 1;
 }
 
-void ranks_end(void)
+/* MPICH before 4.2 may wait for ever in MPI_Finalize: over a network, a process that has got into its last barrier no
+ * longer answers one that still closes its connections (pmodels/mpich, pull request 6596).  There, the leader ends all
+ * at once when it has written everything. */
+#if defined(MPICH_NUMVERSION) && MPICH_NUMVERSION < 40200000
+enum { CAN_FINALIZE = false };
+#else
+enum { CAN_FINALIZE = true };
+#endif
+
+static bool is_under_way(void)
 {
     int has_begun, has_ended;
     MPI_Initialized(&has_begun);
     MPI_Finalized(&has_ended);
-    if (has_begun && !has_ended) MPI_Finalize();
+    return has_begun && !has_ended;
+}
+
+static int count_ranks(int *rank)
+{
+    int n_ranks;
+    MPI_Comm_rank(MPI_COMM_WORLD, rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
+    return n_ranks;
+}
+
+void ranks_part(void)
+{
+    int rank;
+    if (!is_under_way()) return;
+    if (CAN_FINALIZE || count_ranks(&rank) == 1) MPI_Finalize();
+    else
+        while (rank > 0) pause(); /* until the leader ends the job */
+}
+
+void ranks_end(int status)
+{
+    ranks_part();
+    if (!is_under_way()) return;
+    fflush(NULL);
+    if (!freopen("/dev/null", "w", stderr)) return; /* MPI_Abort would tell of itself */
+    MPI_Abort(MPI_COMM_WORLD, status);
 }

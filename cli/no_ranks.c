@@ -17,6 +17,11 @@ uint32_t ranks_threads(void)
     return 0;
 }
 
-void ranks_end(void)
+void ranks_part(void)
 {
+}
+
+void ranks_end(int status)
+{
+    (void)status;
 }

@@ -33,8 +33,11 @@ int ranks_start(crew *c, const launch *by);
 /* Threads for each rank, so that those of one machine share the processors that they may use.  Called by all. */
 uint32_t ranks_threads(void);
 
-/* When all ranks have no more to say to each other. */
-void ranks_end(void);
+/* When the ranks have no more to say to each other; all but the leader may end here. */
+void ranks_part(void);
+
+/* When the program is about to end with this status; it may do so here. */
+void ranks_end(int status);
 
 #ifdef __cplusplus
 }
