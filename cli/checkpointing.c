@@ -36,8 +36,7 @@ static int check_identity(const render_options *o, const scene *s, const render_
     return provenance_compare(o->resume, c, p.pairs, p.n, "this render has", false);
 }
 
-/* The instruction set's name as a text that stays. */
-static const char *static_isa(const char *name)
+const char *static_isa(const char *name)
 {
     static const char *const names[] = {"any", "sse2", "sse4.2", "avx", "avx2", "avx512", "default"};
     for (size_t i = 0; name && i < sizeof names/sizeof *names; i++)

@@ -112,14 +112,14 @@ static int add_shard(const shard *s, render_state *sum)
     return 0;
 }
 
-static int write_merged(const render_options *o, const layer_choice *choice, const merging *m, const render_state *sum)
+static int write_merged(const render_options *o, const merging *m, const render_state *sum)
 {
     facet_error why = {0};
     render_result result = {0};
     provenance p;
     picture_set pictures = {0};
     if (render_develop(sum, &result, &why)) return fail_with(FROM_INPUT, NULL, &why);
-    int status = picture_set_create(o, choice, &sum->film, &result.picture, &pictures);
+    int status = picture_set_create(o, &sum->film, &result.picture, &pictures);
     if (!status) {
         provenance_recollect(&p, o, &m->shards[0].head, sum, pictures.denoiser);
         status = write_outputs(o, &p, &pictures);
@@ -132,25 +132,28 @@ static int write_merged(const render_options *o, const layer_choice *choice, con
     return status;
 }
 
-static int merge(const render_options *o, merging *m, const char *const *paths)
+static int merge(render_options *o, merging *m, const char *const *paths)
 {
     render_state sum = {0};
-    layer_choice choice;
-    int status = choose_layers(o, &choice);
+    layer_choice layers = {0};
+    int status = choose_layers(o, &layers);
+    if (!status) status = load_denoiser(o, &layers);
+    o->layers = &layers;
     for (; !status && m->n < MOST_SHARDS && paths[m->n]; m->n++) {
         status = read_shard(&m->shards[m->n], paths[m->n]);
         if (!status) status = check_shard(m, m->n);
     }
     for (size_t i = 0; !status && i < m->n; i++) status = check_finished(&m->shards[i]);
     if (!status) status = check_gaps(m);
-    if (!status && layers_need_features(&choice) && !m->shards[0].head.has_features)
+    if (!status && layers_need_features(&layers) && !m->shards[0].head.has_features)
         status = fail(EXIT_INPUT, m->shards[0].path, NULL,
                       "keeps no features for --aov and --denoise; render it with one of them");
     if (!status) status = check_outputs(o);
     for (size_t i = 0; !status && i < m->n; i++) status = add_shard(&m->shards[i], &sum);
-    if (!status) status = write_merged(o, &choice, m, &sum);
+    if (!status) status = write_merged(o, m, &sum);
     render_state_destroy(&sum);
-    layer_choice_destroy(&choice);
+    layer_choice_destroy(&layers);
+    o->layers = NULL;
     return status;
 }
 

@@ -12,6 +12,7 @@
 #include "cli/layers.h"
 #include "cli/progress.h"
 #include "cli/provenance.h"
+#include "cli/ranks.h"
 #include "cli/render_job.h"
 #include "cli/report.h"
 
@@ -72,8 +73,8 @@ static void tell_interruption(const render_options *o, const render_result *resu
 }
 
 /* What comes after rendering: warnings, files, the summary. */
-static int finish(const render_options *o, const layer_choice *choice, const saver *saved, const render_state *state,
-                  const render_result *result, warning_list *warnings)
+static int finish(const render_options *o, const saver *saved, const render_state *state, const render_result *result,
+                  warning_list *warnings)
 {
     if (result->n_bad)
         keep_warning(warnings,
@@ -83,9 +84,10 @@ static int finish(const render_options *o, const layer_choice *choice, const sav
     if (result->n_clamped)
         keep_warning(warnings, "%" PRIu64 " samples were beyond a radiance of %.2g and count as that",
                      result->n_clamped, (double)FILM_MOST);
+    const bool is_stopped = result->is_stopped || is_interrupted();
     provenance p;
     picture_set pictures = {0};
-    int status = picture_set_create(o, choice, &state->film, &result->picture, &pictures);
+    int status = picture_set_create(o, &state->film, &result->picture, &pictures);
     if (!status) {
         provenance_collect(&p, o, saved->scene, saved->settings, state, pictures.denoiser);
         status = write_outputs(o, &p, &pictures);
@@ -93,27 +95,51 @@ static int finish(const render_options *o, const layer_choice *choice, const sav
     picture_set_destroy(&pictures);
     if (!status && !o->quiet) summarise(o, result);
     if (saved->why.status) status = fail_with(FROM_OUTPUT, o->checkpoint, &saved->why);
-    if (is_interrupted() && !o->quiet) tell_interruption(o, result);
+    if (is_stopped && !o->quiet) tell_interruption(o, result);
     if (o->json) {
-        print_render_json(o, saved->settings, result, warnings, is_interrupted());
+        print_render_json(o, saved->settings, result, warnings, is_stopped);
         status = finish_stdout(status);
     }
-    return status ? status : is_interrupted() ? EXIT_INTERRUPTED : 0;
+    return status ? status : is_stopped ? EXIT_INTERRUPTED : 0;
 }
 
-static int render_scene(render_options *o, const layer_choice *choice, warning_list *warnings)
+/* Everything up to rendering, by each rank for itself but for what the leader alone reads. */
+static int prepare(render_options *o, warning_list *warnings, int status, const char *error, scene **s,
+                   render_settings *r, render_state *state)
+{
+    const crew *c = o->crew;
+    size_t i_camera = 0;
+    struct {
+        char isa[16];
+        bool keeps_features;
+    } shared = {"", false};
+    if (!status) status = prepare_scene(o, warnings, s, &i_camera);
+    if (!status) status = prepare_settings(o, *s, i_camera, r);
+    if (!status) r->keeps_features = layers_need_features(o->layers);
+    if (!status && o->resume && (!c || c->rank == 0)) status = resume_checkpoint(o, *s, r, state);
+    if (!c) return status;
+    status = ranks_agree(c, status, error);
+    if (status) return status;
+    r->crew = c;
+    if (!r->n_threads) r->n_threads = ranks_threads();
+    if (r->isa) snprintf(shared.isa, sizeof shared.isa, "%s", r->isa);
+    shared.keeps_features = r->keeps_features;
+    crew_share(c, &shared, sizeof shared);
+    r->isa = shared.isa[0] ? static_isa(shared.isa) : NULL;
+    r->keeps_features = shared.keeps_features;
+    return 0;
+}
+
+/* The last part of the render that one process does, and the first in which it fails if `status` says so already. */
+static int render_scene(render_options *o, warning_list *warnings, int status, const char *error)
 {
     facet_error why = {0};
     scene *s = NULL;
-    size_t i_camera = 0;
     render_settings r;
     render_state state = {0};
     render_result result = {0};
     watch w = {.progress = progress_start(o->quiet), .events = warnings->events};
-    int status = prepare_scene(o, warnings, &s, &i_camera);
-    if (!status) status = prepare_settings(o, s, i_camera, &r);
-    if (!status) r.keeps_features = layers_need_features(choice);
-    if (!status && o->resume) status = resume_checkpoint(o, s, &r, &state);
+    status = prepare(o, warnings, status, error, &s, &r, &state);
     if (!status) {
         r.progress = on_progress;
         r.save = o->checkpoint ? on_save : NULL;
@@ -124,10 +150,11 @@ static int render_scene(render_options *o, const layer_choice *choice, warning_l
         catch_signals();
         const facet_status failed = render_continue(s, &r, &state, &result, &why);
         progress_end(&w.progress);
+        ranks_part();
         if (failed && state.film.pixels && !o->isa && strcmp(why.place, "isa") == 0)
             status = fail(EXIT_INPUT, o->resume, NULL, "was made with --isa %s, which this processor lacks", r.isa);
         else if (failed) status = fail_with(FROM_INPUT, o->scene_path, &why);
-        else status = finish(o, choice, &w.saver, &state, &result, warnings);
+        else if (!o->crew || o->crew->rank == 0) status = finish(o, &w.saver, &state, &result, warnings);
     }
     events_done(warnings->events, o, &result, status);
     render_result_destroy(&result);
@@ -159,36 +186,68 @@ static void warn_of_useless(const render_options *o, warning_list *warnings)
         keep_warning(warnings, "--exposure has no effect: .exr files keep the scene's own radiance");
 }
 
+/* The leader's files; the others neither read checkpoints nor write anything. */
+static int check_files(render_options *o, warning_list *warnings)
+{
+    int status = o->outputs.n == 0 && !o->shard ? name_output(o) : 0;
+    if (!status) status = check_outputs(o);
+    if (!status) status = check_checkpointing(o);
+    if (!status) status = events_open(warnings->events, o->events);
+    if (!status) warn_of_useless(o, warnings);
+    return status;
+}
+
+static int render_with(render_options *o, int argc, char **argv, warning_list *warnings, const char *error)
+{
+    int status = 0;
+    if (o->scene_path && strcmp(o->scene_path, "demo") == 0) o->scene_path = NULL;
+    o->command_line = quote_command(argc, argv);
+    if (!o->command_line) status = fail_memory();
+    layer_choice layers = {0};
+    o->layers = &layers;
+    if (!status) status = choose_layers(o, &layers);
+    if (!status && (!o->crew || o->crew->rank == 0)) status = load_denoiser(o, &layers);
+    if (!status && (!o->crew || o->crew->rank == 0)) status = check_files(o, warnings);
+    else if (o->crew) {
+        o->checkpoint = o->resume = NULL;
+        o->quiet = true;
+    }
+    if (!status || o->crew) status = render_scene(o, warnings, status, error);
+    layer_choice_destroy(&layers);
+    o->layers = NULL;
+    return status;
+}
+
 static int run(int argc, char **argv)
 {
     render_options o = {.depth = DEFAULT_DEPTH,
                         .strategy = "mis",
                         .sampler = "sobol",
                         .view = "filmic",
+                        .mpi = "auto",
                         .checkpoint_interval = {.value = DEFAULT_INTERVAL}};
     event_log events = {0};
     warning_list warnings = {.events = &events};
+    crew c;
+    launch by;
+    char error[1024] = "";
+    const bool is_launched = find_launch(&by);
+    if (is_launched && by.rank > 0) keep_silent(error, sizeof error);
     int status = options_parse(&render_command, argc, argv, &o, &o.scene_path);
     if (status != PARSE_GO) return status;
-    if (o.scene_path && strcmp(o.scene_path, "demo") == 0) o.scene_path = NULL;
-    o.command_line = quote_command(argc, argv);
-    status = o.command_line ? 0 : fail_memory();
-    if (!status && o.outputs.n == 0 && !o.shard) status = name_output(&o);
-    if (!status) status = check_outputs(&o);
-    if (!status) status = check_checkpointing(&o);
-    if (!status) status = events_open(&events, o.events);
-    layer_choice choice = {0};
-    if (!status) status = choose_layers(&o, &choice);
-    if (!status) {
-        warn_of_useless(&o, &warnings);
-        status = render_scene(&o, &choice, &warnings);
+    status = 0;
+    if (strcmp(o.mpi, "off") == 0) keep_silent(NULL, 0);
+    else if (is_launched || strcmp(o.mpi, "on") == 0) {
+        status = ranks_start(&c, &by);
+        if (!status) o.crew = &c;
     }
-    layer_choice_destroy(&choice);
+    if (!status || o.crew) status = render_with(&o, argc, argv, &warnings, error);
     events_close(&events);
     warning_list_destroy(&warnings);
     free(o.default_output);
     free(o.command_line);
-    return status;
+    ranks_end(status);
+    return o.crew && o.crew->rank > 0 ? 0 : status; /* of mpirun, which takes any other: the leader's */
 }
 
 #define AT(member) offsetof(render_options, member)
@@ -208,7 +267,7 @@ static const option options[] = {
     {"env-scale", 0, OPTION_NUMBER, AT(env_scale), "X", "multiply the environment by X (default 1)", 0, 1e30, NULL},
     {"depth", 0, OPTION_INTEGER, AT(depth), "N", "most scattering events on a path (default 8)", 0, 4096, NULL},
     {"threads", 't', OPTION_INTEGER, AT(threads), "N",
-     "threads; the picture does not depend on them (default: one per processor)", 1, 1024, NULL},
+     "threads (of each process); the picture does not depend on them (default: one per processor)", 1, 1024, NULL},
     {"seed", 0, OPTION_INTEGER, AT(seed), "N", "seed of the samples (default 0)", 0, UINT32_MAX, NULL},
     {"crop", 0, OPTION_RECT, AT(crop), "X,Y,W,H", "render only this part of the picture [pixel]", 0, 0, NULL},
     {"time", 0, OPTION_NUMBER, AT(time), "SECONDS", "stop after this time", 1e-3, 1e9, NULL},
@@ -243,6 +302,10 @@ static const option options[] = {
      0, 0, NULL},
     {"shard", 0, OPTION_TEXT, AT(shard), "K/N",
      "render only the K-th of N parts of the samples, as --checkpoint FILE; `facet merge` adds them up", 0, 0, NULL},
+    {"mpi", 0, OPTION_CHOICE, AT(mpi), NULL,
+     "whether processes that mpirun or srun started render together: auto (default) where there are several, on, off "
+     "(each on its own)",
+     0, 0, "auto|on|off"},
     {"exposure", 0, OPTION_NUMBER, AT(exposure), "EV", ".png: brighten by 2^EV (default 0)", -50, 50, NULL},
     {"view", 0, OPTION_CHOICE, AT(view), NULL, ".png: how radiance becomes display values (default filmic)", 0, 0,
      "standard|filmic|agx"},

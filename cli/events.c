@@ -66,6 +66,7 @@ void events_start(event_log *log, const render_options *o, const render_settings
     json_put_integer(&j, "spp", settings->spp);
     json_put_integer(&j, "shard", settings->n_shards ? settings->shard : 1);
     json_put_integer(&j, "shards", settings->n_shards ? settings->n_shards : 1);
+    json_put_integer(&j, "ranks", settings->crew ? settings->crew->n_ranks : 1);
     json_put_integer(&j, "resumed_spp", state->spp);
     end(log, &j);
 }

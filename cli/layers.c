@@ -49,11 +49,11 @@ static int parse_names(const char *list, unsigned *wanted)
 
 /* ---- Before rendering ---------------------------------------------------------------------------- */
 
-static int load_denoiser(const render_options *o, denoiser **result)
+int load_denoiser(const render_options *o, layer_choice *choice)
 {
     facet_error why = {0};
     const char *variable = getenv("FACET_OIDN"), *path = o->oidn ? o->oidn : variable && *variable ? variable : NULL;
-    if (denoiser_load(path, result, &why) == FACET_OK) return 0;
+    if (!choice->is_denoised || denoiser_load(path, &choice->denoiser, &why) == FACET_OK) return 0;
     if (path) return fail(EXIT_WORLD, path, NULL, "%s; give --oidn the path of libOpenImageDenoise.so.2", why.text);
     return fail(EXIT_WORLD, NULL, "--denoise",
                 "Open Image Denoise %s; after `pip download pyoidn` and unzip, --oidn "
@@ -63,14 +63,13 @@ static int load_denoiser(const render_options *o, denoiser **result)
 
 int choose_layers(const render_options *o, layer_choice *choice)
 {
-    *choice = (layer_choice){0};
+    *choice = (layer_choice){.is_denoised = o->denoise};
     int status = o->aov ? parse_names(o->aov, &choice->wanted) : 0;
     if (!status && o->oidn && !o->denoise)
         status = fail(EXIT_USAGE, NULL, "--oidn", "is the library of --denoise, which is not given");
     for (int i = 0; i < MOST_AOVS && !status; i++)
         if (is_wanted(choice, i) && aovs[i].layer == NOISY && !o->denoise)
             status = fail(EXIT_USAGE, NULL, "--aov", "noisy is the picture before --denoise, which is not given");
-    if (!status && o->denoise) status = load_denoiser(o, &choice->denoiser);
     return status;
 }
 
@@ -82,7 +81,7 @@ void layer_choice_destroy(layer_choice *choice)
 
 bool layers_need_features(const layer_choice *choice)
 {
-    bool needs = choice->denoiser != NULL;
+    bool needs = choice->is_denoised;
     for (int i = 0; i < MOST_AOVS; i++)
         needs |= is_wanted(choice, i) && aovs[i].layer != FILM_SAMPLES && aovs[i].layer != NOISY;
     return needs;
@@ -114,9 +113,9 @@ static void add_layer(picture_set *set, const image *picture, const char *const 
     memcpy(added->channels, channels, sizeof added->channels);
 }
 
-int picture_set_create(const render_options *o, const layer_choice *choice, const film *f, const image *picture,
-                       picture_set *set)
+int picture_set_create(const render_options *o, const film *f, const image *picture, picture_set *set)
 {
+    const layer_choice *choice = o->layers;
     static const char *const rgb[4] = {"R", "G", "B"};
     const exr_precision precision = o->half ? EXR_HALF : EXR_FLOAT;
     facet_error why = {0};

@@ -113,6 +113,7 @@ void print_render_json(const render_options *o, const render_settings *settings,
     json_put_integer(&j, "spp", result->spp);
     json_put_number(&j, "mean_spp", result->mean_spp);
     json_put_integer(&j, "seed", settings->seed);
+    json_put_integer(&j, "ranks", settings->crew ? settings->crew->n_ranks : 1);
     json_put_bool(&j, "complete", result->is_complete);
     json_put_bool(&j, "interrupted", is_interrupted);
     json_put_number(&j, "seconds", round(1e6*result->seconds)/1e6);

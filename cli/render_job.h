@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "cli/options.h"
+#include "render/crew.h"
 #include "render/render.h"
 #include "render/scene.h"
 
@@ -17,14 +18,16 @@ typedef struct render_options {
     uint64_t spp, depth, threads, seed;
     size_t size[2], crop[4];
     const char *camera, *env, *strategy, *sampler, *isa, *view;
-    const char *checkpoint, *resume, *shard, *events;
+    const char *checkpoint, *resume, *shard, *events, *mpi;
     const char *aov, *oidn;
     option_number env_scale, time, noise, exposure, checkpoint_interval;
     bool half, quiet, json, denoise;
+    const struct layer_choice *layers; /* what --aov and --denoise lead to */
     /* what the command line as a whole leads to */
     const char *scene_path; /* NULL: the demo scene */
     char *default_output;   /* owned; NULL when outputs were named */
     char *command_line;     /* owned; quoted for a shell; of a resumed render, that of its first run */
+    const crew *crew;       /* processes that render this together; NULL: this one alone */
 } render_options;
 
 /* Warnings, kept for --json after they were printed. */

@@ -35,12 +35,22 @@ static void append_clean(char *line, size_t size, const char *text)
     line[n] = 0;
 }
 
+/* Where the first error goes in a process that another one speaks for; set once, at the start. */
+static char *kept_error;
+static size_t kept_size;
+
+void keep_silent(char *error, size_t size)
+{
+    kept_error = error;
+    kept_size = size;
+    if (error) error[0] = 0;
+}
+
 /* One line on stderr in one write, so that lines of several processes do not mix. */
 static void say(const char *kind, const char *file, const char *place, const char *text)
 {
-    char line[2048] = "facet: ";
-    append_clean(line, sizeof line - 1, kind);
-    append_clean(line, sizeof line - 1, ": ");
+    char line[2048] = "";
+    if (!kept_error) snprintf(line, sizeof line, "facet: %s: ", kind);
     if (file && *file) {
         append_clean(line, sizeof line - 1, file);
         append_clean(line, sizeof line - 1, ":");
@@ -51,6 +61,10 @@ static void say(const char *kind, const char *file, const char *place, const cha
         append_clean(line, sizeof line - 1, ": ");
     }
     append_clean(line, sizeof line - 1, text);
+    if (kept_error) {
+        if (!kept_error[0] && strcmp(kind, "error") == 0) snprintf(kept_error, kept_size, "%s", line);
+        return;
+    }
     strcat(line, "\n");
     fputs(line, stderr);
 }

@@ -34,6 +34,10 @@ int fail(int status, const char *file, const char *place, const char *format, ..
 /* The same for an error that a library function filled in. */
 int fail_with(origin from, const char *file, const facet_error *why);
 
+/* From now on nothing is printed, and the first error's text, without `facet: error: `, is kept in `error`; for a
+ * process that another one speaks for.  NULL: prints again. */
+void keep_silent(char *error, size_t size);
+
 /* Out of memory, in the program itself. */
 int fail_memory(void);
 

@@ -77,8 +77,8 @@ typedef struct film_error {
 bool film_measure(const film *f, size_t x0, size_t y0, size_t x1, size_t y1, film_error *error);
 
 /* Estimated relative error of the picture: the mean over blocks of FILM_BLOCK x FILM_BLOCK pixels of their deviation,
- * over the picture's mean luminance.  A pixel that a rare bright path has hit counts in its block alone.  Negative below
- * two samples per pixel or if all is black. */
+ * over the picture's mean luminance.  A pixel that a rare bright path has hit counts in its block alone.  Negative
+ * below two samples per pixel or if all is black. */
 double film_noise(const film *f);
 #define FILM_BLOCK 32
 

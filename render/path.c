@@ -8,6 +8,8 @@
 
 #include "render/stages.h"
 
+_Static_assert(PATHS%LOOP_LANES == 0, "arrays hold whole vectors");
+
 path_batch *path_batch_create(const scene *s)
 {
     path_batch *batch = aligned_alloc(64, (sizeof *batch + 63)/64*64);

@@ -8,26 +8,9 @@
 #include <time.h>
 
 #include "core/error.h"
-#include "render/path.h"
+#include "render/crew.h"
+#include "render/render_run.h"
 #include "render/surface.h"
-#include "render/thread_pool.h"
-#include "render/tile_plan.h"
-
-/* What a thread has to itself; padded so that two threads' counts do not share a cache line. */
-typedef struct worker {
-    path_batch *batch;
-    path_counts counts;
-    char padding[64];
-} worker;
-
-typedef struct job {
-    path_context context;
-    tile_plan plan;
-    uint32_t target; /* this pass ends when each pixel has so many */
-    worker *workers;
-    uint32_t n_workers;
-    uint64_t n_samples; /* of all pixels; atomic */
-} job;
 
 void render_settings_defaults(render_settings *settings)
 {
@@ -41,26 +24,32 @@ static double read_clock(clockid_t clock)
     return (double)t.tv_sec + 1e-9*(double)t.tv_nsec;
 }
 
-static double now(void)
+double run_now(void)
 {
     return read_clock(CLOCK_MONOTONIC);
+}
+
+void job_run_tile(job *j, uint32_t piece, uint32_t begin, uint32_t end, uint32_t thread)
+{
+    worker *own = &j->workers[thread];
+    const tile where = tile_plan_at(&j->plan, piece);
+    if (begin >= end) return;
+    for (uint32_t i = begin; i < end; i++)
+        path_batch_run(own->batch, &j->context, where, j->plan.first_sample + i, &j->plan.state->film, &own->counts);
+    const uint64_t n_pixels = (uint64_t)(where.x1 - where.x0)*(where.y1 - where.y0);
+    __atomic_fetch_add(&j->n_samples, n_pixels*(end - begin), __ATOMIC_RELAXED);
 }
 
 /* A thread_pool_job: the samples that a tile has not got yet, pass by pass, up to the end of this one. */
 static void run_tile(void *user, uint32_t piece, uint32_t thread)
 {
     job *j = user;
-    const tile where = tile_plan_at(&j->plan, piece);
-    worker *own = &j->workers[thread];
-    uint32_t i = tile_plan_position(&j->plan, where);
-    while (i < j->target && !j->plan.is_done[piece]) {
-        const uint32_t begin = i, end = tile_plan_pass_end(&j->plan, i);
-        for (; i < end; i++)
-            path_batch_run(own->batch, &j->context, where, j->plan.first_sample + i, &j->plan.state->film,
-                           &own->counts);
+    uint32_t position = tile_plan_position(&j->plan, tile_plan_at(&j->plan, piece));
+    while (position < j->target && !j->plan.is_done[piece]) {
+        const uint32_t end = tile_plan_pass_end(&j->plan, position);
+        job_run_tile(j, piece, position, end, thread);
         tile_plan_judge(&j->plan, piece);
-        const uint64_t n_pixels = (uint64_t)(where.x1 - where.x0)*(where.y1 - where.y0);
-        __atomic_fetch_add(&j->n_samples, n_pixels*(end - begin), __ATOMIC_RELAXED);
+        position = end;
     }
 }
 
@@ -95,6 +84,7 @@ static void job_destroy(job *j)
     light_set_destroy((light_set *)j->context.lights);
     surface_set_destroy((surface_set *)j->context.surfaces);
     tracer_destroy((tracer *)j->context.tracer);
+    *j = (job){0};
 }
 
 /* Acceleration structure, light tables, film and workspaces. */
@@ -131,34 +121,17 @@ static facet_status job_create(const scene *s, const render_settings *r, uint32_
     return status;
 }
 
-/* Between two reports of progress [s]. */
-static const double PROGRESS_INTERVAL = 0.1;
-
-/* One call's way through the passes. */
-typedef struct run {
-    job *job;
-    const render_settings *settings;
-    double start, start_cpu;     /* of this call [s] */
-    double seconds, cpu_seconds; /* of the calls before */
-    uint64_t n_samples;          /* of the calls before */
-    double told, saved;          /* when progress was last reported and the state last saved */
-    double noise;                /* negative while unknown */
-    uint64_t n_left;             /* samples that noise target and limit still ask for, when n_samples_then were done */
-    uint64_t n_samples_then;
-    bool is_wanted; /* nobody has asked for the end */
-} run;
-
 /* Asks for an early end if the progress callback does. */
-static void tell(run *u)
+void run_tell(run *u)
 {
     const render_settings *r = u->settings;
-    u->told = now();
+    u->told = run_now();
     if (!r->progress) return;
     const double elapsed = u->told - u->start, total = u->seconds + elapsed;
     render_progress p = {.samples_done = __atomic_load_n(&u->job->n_samples, __ATOMIC_RELAXED),
                          .samples_total = u->n_samples_then + u->n_left,
                          .seconds = total,
-                         .noise = u->noise,
+                         .noise = u->job->plan.noise,
                          .time_left = -1};
     if (p.samples_done > p.samples_total) p.samples_total = p.samples_done;
     if (p.samples_done > u->n_samples && elapsed > 0) {
@@ -169,12 +142,11 @@ static void tell(run *u)
     if (!r->progress(r->user, &p)) u->is_wanted = false;
 }
 
-/* Brings the state's figures up to date; no thread may be at work. */
-static void collect(const run *u)
+void run_collect(const run *u)
 {
     const job *j = u->job;
     render_state *state = j->plan.state;
-    state->seconds = u->seconds + now() - u->start;
+    state->seconds = u->seconds + run_now() - u->start;
     state->cpu_seconds = u->cpu_seconds + read_clock(CLOCK_PROCESS_CPUTIME_ID) - u->start_cpu;
     for (uint32_t i = 0; i < j->n_workers; i++) {
         path_counts *c = &j->workers[i].counts;
@@ -191,14 +163,14 @@ static void collect(const run *u)
 static void save(run *u)
 {
     if (!u->settings->save) return;
-    collect(u);
+    run_collect(u);
     u->settings->save(u->settings->user, u->job->plan.state);
-    u->saved = now();
+    u->saved = run_now();
 }
 
-static bool is_save_due(const run *u)
+bool run_is_save_due(const run *u)
 {
-    return u->settings->save && now() - u->saved >= u->settings->save_interval;
+    return u->settings->save && run_now() - u->saved >= u->settings->save_interval;
 }
 
 /* Renders the tiles that are behind the target; true when all are there or done. */
@@ -211,48 +183,96 @@ static bool run_pass(run *u, thread_pool *pool)
         if (!u->is_wanted && has_picture) return false;
         thread_pool_start(pool, run_tile, j, j->plan.n_tiles);
         while (!thread_pool_wait(pool, PROGRESS_INTERVAL)) {
-            tell(u);
-            if ((!u->is_wanted && has_picture) || is_save_due(u)) thread_pool_cancel(pool);
+            run_tell(u);
+            if ((!u->is_wanted && has_picture) || run_is_save_due(u)) thread_pool_cancel(pool);
         }
-        if (is_save_due(u)) save(u);
+        if (run_is_save_due(u)) save(u);
     }
 }
 
-/* Brings what is known of the noise up to date, between passes. */
-static void look(run *u)
+void run_look(run *u)
 {
-    tile_plan_end_pass(&u->job->plan);
-    u->noise = film_noise(&u->job->plan.state->film);
-    u->n_samples_then = u->job->n_samples;
-    u->n_left = tile_plan_samples_left(&u->job->plan);
+    job *j = u->job;
+    tile_plan_look(&j->plan);
+    j->plan.state->spp = tile_plan_passed(&j->plan);
+    u->n_samples_then = __atomic_load_n(&j->n_samples, __ATOMIC_RELAXED);
+    u->n_left = tile_plan_samples_left(&j->plan);
 }
 
-/* Whether an end is reached between passes. */
-static bool is_over(const run *u)
+bool run_is_over(const run *u)
 {
     const render_settings *r = u->settings;
     const uint32_t spp = u->job->plan.state->spp;
     if (!u->is_wanted || spp == u->job->plan.n_share || tile_plan_is_quiet(&u->job->plan)) return true;
-    return r->time_limit > 0 && spp > 0 && u->seconds + now() - u->start >= r->time_limit;
+    return r->time_limit > 0 && spp > 0 && u->seconds + run_now() - u->start >= r->time_limit;
 }
 
 /* Runs passes until an end is reached. */
 static void run_passes(run *u, thread_pool *pool)
 {
-    tile_plan *plan = &u->job->plan;
-    uint32_t *const spp = &plan->state->spp, least = tile_plan_least(plan), most = tile_plan_most(plan);
-    const uint32_t reached = least < most ? least : most;
-    for (*spp = 0; *spp < reached && tile_plan_pass_end(plan, *spp) <= reached;) *spp = tile_plan_pass_end(plan, *spp);
-    look(u);
-    while (!is_over(u)) {
-        u->job->target = tile_plan_pass_end(plan, *spp);
+    job *j = u->job;
+    run_look(u);
+    while (!run_is_over(u)) {
+        j->target = tile_plan_pass_end(&j->plan, j->plan.state->spp);
         if (!run_pass(u, pool)) break;
-        *spp = u->job->target;
-        look(u);
-        if (now() - u->told >= PROGRESS_INTERVAL) tell(u); /* short passes end before the wait does */
-        if (is_save_due(u)) save(u);
+        run_look(u);
+        if (run_now() - u->told >= PROGRESS_INTERVAL) run_tell(u); /* short passes end before the wait does */
+        if (run_is_save_due(u)) save(u);
     }
-    tell(u);
+    run_tell(u);
+}
+
+/* A number that differs between renders of other settings. */
+static uint64_t identity_of(const scene *s, const render_settings *r)
+{
+    const uint64_t words[] = {s->hash,
+                              r->width,
+                              r->height,
+                              r->crop_x,
+                              r->crop_y,
+                              r->crop_w,
+                              r->crop_h,
+                              r->camera,
+                              r->spp,
+                              r->depth,
+                              r->seed,
+                              r->shard,
+                              r->shard,
+                              r->n_shards,
+                              (uint64_t)r->strategy,
+                              (uint64_t)r->sampler,
+                              r->keeps_features};
+    uint64_t hash = 0xcbf29ce484222325; /* FNV-1a, by words */
+    for (size_t i = 0; i < sizeof words/sizeof *words; i++) hash = (hash ^ words[i])*0x100000001b3;
+    return hash;
+}
+
+/* All that a run needs; on failure what was made remains to be destroyed. */
+static facet_status run_create(const scene *s, const render_settings *r, render_state *state, job *j, run *u,
+                               thread_pool **pool, crew_part **part, facet_error *why)
+{
+    const uint32_t n_threads = r->n_threads ? r->n_threads : thread_pool_default_size();
+    facet_status status = check_settings(s, r, why);
+    if (!status) status = job_create(s, r, n_threads, state, j, why);
+    if (status) return status;
+    status = thread_pool_create(n_threads, tracer_prepare_thread, pool);
+    if (status) return facet_error_set(why, status, "threads", "cannot start %u threads", n_threads);
+    *u = (run){.job = j,
+               .settings = r,
+               .seconds = state->seconds,
+               .cpu_seconds = state->cpu_seconds,
+               .n_samples = j->n_samples,
+               .is_wanted = true};
+    if (r->crew && (status = crew_prepare(r->crew, u, *pool, part)) != FACET_OK)
+        return facet_error_set(why, status, "size", "no memory for a picture of %zux%zu", r->crop_w, r->crop_h);
+    return FACET_OK;
+}
+
+static void run_destroy(job *j, thread_pool *pool, crew_part *part)
+{
+    thread_pool_destroy(pool);
+    crew_unprepare(part);
+    job_destroy(j);
 }
 
 facet_status render_continue(const scene *s, const render_settings *settings, render_state *state,
@@ -263,41 +283,34 @@ facet_status render_continue(const scene *s, const render_settings *settings, re
         r.crop_w = r.width;
         r.crop_h = r.height;
     }
-    facet_status status = check_settings(s, &r, why);
-    if (status) return status;
-    const uint32_t n_threads = r.n_threads ? r.n_threads : thread_pool_default_size();
-    const double begin = now();
-    job j;
-    status = job_create(s, &r, n_threads, state, &j, why);
-    if (status) return status;
+    const double begin = run_now();
+    job j = {0};
+    run u;
     thread_pool *pool = NULL;
-    status = thread_pool_create(n_threads, tracer_prepare_thread, &pool);
+    crew_part *part = NULL;
+    facet_status status = run_create(s, &r, state, &j, &u, &pool, &part, why);
+    if (r.crew) status = crew_agree(r.crew, part, status, identity_of(s, &r), state->isa, why);
     if (status) {
-        job_destroy(&j);
-        return facet_error_set(why, status, "threads", "cannot start %u threads", n_threads);
+        run_destroy(&j, pool, part);
+        return status;
     }
-    const double start = now();
-    run u = {.job = &j,
-             .settings = &r,
-             .start = start,
-             .start_cpu = read_clock(CLOCK_PROCESS_CPUTIME_ID),
-             .seconds = state->seconds,
-             .cpu_seconds = state->cpu_seconds,
-             .n_samples = j.n_samples,
-             .told = start,
-             .saved = start,
-             .noise = -1,
-             .is_wanted = true};
-    run_passes(&u, pool);
-    thread_pool_destroy(pool);
-    save(&u);
-    collect(&u);
-    status = render_develop(state, result, why);
+    u.start = u.told = u.saved = run_now();
+    u.start_cpu = read_clock(CLOCK_PROCESS_CPUTIME_ID);
+    if (part) crew_run(part);
+    else run_passes(&u, pool);
+    if (r.crew && r.crew->rank > 0) {
+        *result = (render_result){.isa = state->isa};
+    } else {
+        save(&u);
+        run_collect(&u);
+        status = render_develop(state, result, why);
+    }
     if (status == FACET_OK) {
-        result->setup_seconds = start - begin;
+        result->setup_seconds = u.start - begin;
         result->is_complete = state->spp == j.plan.n_share;
+        result->is_stopped = !u.is_wanted;
     }
-    job_destroy(&j);
+    run_destroy(&j, pool, part);
     return status;
 }
 

@@ -67,11 +67,10 @@ typedef struct render_settings {
     enum strategy strategy;
     sampler_kind sampler;
     uint32_t shard, n_shards; /* render the samples of the shard-th of n_shards, from 1; n_shards == 0: all of them */
-    const char *isa;   /* Embree's instruction set: "sse2", "sse4.2", "avx", "avx2", "avx512"; NULL: avx2 where there
+    const char *isa;     /* Embree's instruction set: "sse2", "sse4.2", "avx", "avx2", "avx512"; NULL: avx2 where there
                         is one, else the best, or none at all for a small scene ("any") */
-    double time_limit; /* [s], with what a continued render took before; 0: none.  Checked between passes */
-    double
-        noise_target; /* stop at this estimated relative error (film_noise), and leave tiles that have it before; 0: none */
+    double time_limit;   /* [s], with what a continued render took before; 0: none.  Checked between passes */
+    double noise_target; /* stop at this film_noise, and leave tiles that are quiet enough before; 0: none */
     bool keeps_features; /* albedo, normal and distance of what is seen first, beside the radiance */
     /* Called on the calling thread about ten times a second; false asks for an early end.  May be NULL. */
     bool (*progress)(void *user, const render_progress *state);
@@ -80,6 +79,7 @@ typedef struct render_settings {
     void (*save)(void *user, const render_state *state);
     double save_interval;
     void *user;
+    const struct crew *crew; /* processes that share this render (crew.h); NULL: this one alone */
 } render_settings;
 
 void render_settings_defaults(render_settings *settings);
@@ -89,6 +89,7 @@ typedef struct render_result {
     uint32_t spp;     /* samples per pixel reached, in tiles that did not end before */
     double mean_spp;  /* of all pixels */
     bool is_complete; /* all of settings.spp; false after time, noise or a requested end */
+    bool is_stopped;  /* the end was requested, by progress, here or on another rank */
     uint64_t n_paths, n_rays, n_shadow_rays;
     uint64_t n_bad; /* samples that were NaN or infinite */
     bad_sample bad[RENDER_MAX_REPORTED];
@@ -105,7 +106,8 @@ facet_status render(const scene *s, const render_settings *settings, render_resu
 void render_result_destroy(render_result *result);
 
 /* Renders what is left to do: all, if *state is zero, else what a state of the same scene and settings leaves.  The
- * state remains the caller's to destroy.  FACET_BAD_VALUE for one that these settings cannot have made. */
+ * state remains the caller's to destroy.  FACET_BAD_VALUE for one that these settings cannot have made.  In a crew all
+ * but the leader begin with a zero state and end with an empty result. */
 facet_status render_continue(const scene *s, const render_settings *settings, render_state *state,
                              render_result *result, facet_error *why);
 void render_state_destroy(render_state *state);

@@ -7,7 +7,7 @@
 /* The side of the squares of pixels that share a point set is 2^MOST_SIDE_BITS, if an index of 32 bits has room. */
 enum { MOST_SIDE_BITS = 5 };
 
-/* The binary digits of two numbers in turn: the place on a curve through a square that visits each quarter in one go. */
+/* The binary digits of two numbers in turn: a place on a curve through a square that visits each quarter in one go. */
 static uint32_t interleave(uint32_t x, uint32_t y)
 {
     uint32_t z = 0;

@@ -3,8 +3,8 @@
  * sobol: each group of up to three dimensions is a Sobol' point set of its own, whose order is shuffled and
  * whose digits are Owen-scrambled by hashes of place, group and seed, so that groups are independent of
  * each other while each stays well spread over the samples of a pixel.  [burley20] Burley, Practical
- * hash-based Owen scrambling, JCGT 2020.  Squares of pixels share a point set, whose aligned runs are their quarters, and
- * the quarters' quarters, down to pixels: neighbours complement each other, and what error is left is blue noise.
+ * hash-based Owen scrambling, JCGT 2020.  Squares of pixels share a point set, whose aligned runs are their quarters,
+ * and the quarters' quarters, down to pixels: neighbours complement each other, and what error is left is blue noise.
  * [ahmed20] Ahmed and Wonka, Screen-space blue-noise diffusion of Monte Carlo sampling error via hierarchical ordering
  * of pixels, 2020.  random: independent numbers by the same hashes.
  *

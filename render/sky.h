@@ -1,7 +1,8 @@
 /* sky.h: radiance from infinity: looking it up, and sampling it in proportion to its brightness.
  *
  * The map is interpolated bilinearly; a direction is drawn by choosing a texel with probability proportional to
- * the integral of the interpolated luminance over it, or of what exceeds the mean, then a uniform direction in the texel.
+ * the integral of the interpolated luminance over it, or of what exceeds the mean, then a uniform direction in the
+ * texel.
  * SPDX-License-Identifier: MIT */
 #pragma once
 
@@ -22,8 +23,8 @@ typedef struct sky {
     uint64_t n_dropped; /* texels that were NaN, infinite or negative and count as black */
 } sky;
 
-/* is_compensated: scattered rays that meet the sky are counted and weighted, too, so that directions of less than its mean
- * luminance need not be drawn. */
+/* is_compensated: scattered rays that meet the sky are counted and weighted, too, so that directions of less than its
+ * mean luminance need not be drawn. */
 facet_status sky_create(const environment *e, bool is_compensated, sky *result, facet_error *why);
 void sky_destroy(sky *s);
 

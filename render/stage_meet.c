@@ -5,6 +5,15 @@
 #include <math.h>
 #include <string.h>
 
+static ray get_ray(const ray_array *a, uint32_t i)
+{
+    return (ray){.origin = {a->origin.x[i], a->origin.y[i], a->origin.z[i]},
+                 .direction = {a->direction.x[i], a->direction.y[i], a->direction.z[i]},
+                 .t_min = a->t_min[i],
+                 .t_max = a->t_max[i],
+                 .seed = a->seed[i]};
+}
+
 static hit hit_at(const path_batch *batch, uint32_t i)
 {
     return (hit){batch->t[i], batch->u[i], batch->v[i], batch->instance[i], batch->primitive[i]};

@@ -22,7 +22,6 @@ enum { GROUP_CAMERA, GROUP_LIGHT, GROUP_SCATTER, GROUP_CHANCE, GROUPS_PER_EVENT 
 
 /* Arrays of a power of two would lie at equal offsets in their pages, and evict each other from the first cache. */
 enum { PATHS = TILE_SIZE*TILE_SIZE, ROOM = PATHS + 16 };
-_Static_assert(PATHS%LOOP_LANES == 0, "arrays hold whole vectors");
 
 /* What sent a ray. */
 typedef enum path_origin { FROM_CAMERA, FROM_DELTA, FROM_LOBE } path_origin;
@@ -128,15 +127,6 @@ static inline void set_ray(ray_array *a, uint32_t i, real3 origin, real3 directi
     a->t_min[i] = 0;
     a->t_max[i] = t_max;
     a->seed[i] = seed;
-}
-
-static inline ray get_ray(const ray_array *a, uint32_t i)
-{
-    return (ray){.origin = {a->origin.x[i], a->origin.y[i], a->origin.z[i]},
-                 .direction = {a->direction.x[i], a->direction.y[i], a->direction.z[i]},
-                 .t_min = a->t_min[i],
-                 .t_max = a->t_max[i],
-                 .seed = a->seed[i]};
 }
 
 static inline void add_radiance(path_batch *batch, uint32_t slot, real3 radiance)

@@ -37,8 +37,8 @@ uint32_t tile_plan_pass_end(const tile_plan *plan, uint32_t position)
 
 /* ---- Noise --------------------------------------------------------------------------------------- */
 
-/* The deviation of a tile over the one that is asked for: the target's share of the geometric mean of the tile's and the
- * picture's luminance, since the eye forgives less in the dark.  Were it so in all tiles, the noise of the picture
+/* The deviation of a tile over the one that is asked for: the target's share of the geometric mean of the tile's and
+ * the picture's luminance, since the eye forgives less in the dark.  Were it so in all tiles, the noise of the picture
  * would be below the target: the mean of square roots is at most the root of the mean. */
 static double excess_of(const tile_plan *plan, tile where)
 {
@@ -48,29 +48,59 @@ static double excess_of(const tile_plan *plan, tile where)
     return e.deviation > 0 ? e.deviation/tolerance : 0;
 }
 
-bool tile_plan_judge(const tile_plan *plan, uint32_t i)
+void tile_plan_judge(const tile_plan *plan, uint32_t i)
 {
-    if (plan->noise_target > 0 && plan->state->mean_luminance > 0)
+    if (plan->noise_target > 0 && plan->state->mean_luminance > 0 && !plan->is_done[i])
         plan->is_done[i] = excess_of(plan, tile_plan_at(plan, i)) <= 1;
-    return plan->is_done[i];
 }
 
-void tile_plan_end_pass(tile_plan *plan)
+/* The end of the last pass that does not go beyond a position. */
+static uint32_t last_pass_end(const tile_plan *plan, uint32_t position)
+{
+    uint32_t end = 0;
+    while (end < position && tile_plan_pass_end(plan, end) <= position) end = tile_plan_pass_end(plan, end);
+    return end;
+}
+
+/* Whether all tiles that are not done are at the end of the same pass: what follows from the noise then is the same
+ * however the samples came there. */
+static bool is_between_passes(const tile_plan *plan)
+{
+    const uint32_t least = tile_plan_least(plan);
+    bool is_even = last_pass_end(plan, least) == least;
+    for (uint32_t i = 0; i < plan->n_tiles && is_even; i++)
+        is_even = plan->is_done[i] || tile_plan_position(plan, tile_plan_at(plan, i)) == least;
+    return is_even;
+}
+
+void tile_plan_look(tile_plan *plan)
 {
     render_state *state = plan->state;
+    const film *f = &state->film;
     film_error e;
-    if (!(plan->noise_target > 0) || state->mean_luminance > 0 || tile_plan_least(plan) < LEAST_TO_JUDGE ||
-        !film_measure(&state->film, 0, 0, state->film.width, state->film.height, &e))
-        return;
-    state->mean_luminance = e.luminance;
-    for (uint32_t i = 0; i < plan->n_tiles; i++) tile_plan_judge(plan, i);
+    plan->noise = film_noise(f);
+    if (!(plan->noise_target > 0)) return;
+    if (state->mean_luminance == 0 && tile_plan_least(plan) >= LEAST_TO_JUDGE && is_between_passes(plan) &&
+        film_measure(f, 0, 0, f->width, f->height, &e))
+        state->mean_luminance = e.luminance;
+    for (uint32_t i = 0; i < plan->n_tiles; i++) {
+        const uint32_t position = tile_plan_position(plan, tile_plan_at(plan, i));
+        if (last_pass_end(plan, position) == position) tile_plan_judge(plan, i);
+    }
+}
+
+uint32_t tile_plan_passed(const tile_plan *plan)
+{
+    const uint32_t least = tile_plan_least(plan), most = tile_plan_most(plan);
+    return last_pass_end(plan, least < most ? least : most);
 }
 
 bool tile_plan_is_quiet(const tile_plan *plan)
 {
     if (!(plan->noise_target > 0 && plan->state->mean_luminance > 0)) return false;
-    const double noise = film_noise(&plan->state->film);
-    return tile_plan_least(plan) == plan->n_share || (noise >= 0 && noise <= plan->noise_target);
+    bool are_all_done = true;
+    for (uint32_t i = 0; i < plan->n_tiles; i++) are_all_done &= plan->is_done[i];
+    return are_all_done || (plan->noise >= 0 && plan->noise <= plan->noise_target && is_between_passes(plan));
 }
 
 /* ---- Counts -------------------------------------------------------------------------------------- */
@@ -112,10 +142,9 @@ uint64_t tile_plan_samples_left(const tile_plan *plan)
         const tile where = tile_plan_at(plan, i);
         if (!plan->is_done[i]) n += pixels_of(where)*(plan->n_share - tile_plan_position(plan, where));
     }
-    const double noise = plan->noise_target > 0 ? film_noise(&plan->state->film) : -1;
-    if (!(noise > 0)) return n;
+    if (!(plan->noise_target > 0 && plan->noise > 0)) return n;
     /* The error falls with the square root of the samples. */
-    const double factor = noise/plan->noise_target;
+    const double factor = plan->noise/plan->noise_target;
     return (uint64_t)fmin((double)n, fmax(factor*factor - 1, 0)*(double)tile_plan_samples(plan));
 }
 
@@ -134,16 +163,10 @@ static facet_status check_tile(const tile_plan *plan, uint32_t i, facet_error *w
     return FACET_OK;
 }
 
-/* Tiles in the middle of a pass cannot be: a thread ends the pass of a tile that it has begun. */
-static void judge_all(tile_plan *plan)
-{
-    for (uint32_t i = 0; i < plan->n_tiles; i++) tile_plan_judge(plan, i);
-}
-
 facet_status tile_plan_create(const render_settings *r, render_state *state, tile_plan *plan, facet_error *why)
 {
     film *f = &state->film;
-    *plan = (tile_plan){.state = state, .noise_target = r->noise_target};
+    *plan = (tile_plan){.state = state, .noise_target = r->noise_target, .noise = -1};
     plan->n_tiles_x = (uint32_t)((r->crop_w + TILE_SIZE - 1)/TILE_SIZE);
     plan->n_tiles = plan->n_tiles_x*(uint32_t)((r->crop_h + TILE_SIZE - 1)/TILE_SIZE);
     render_share(r->spp, r->shard, r->n_shards, &plan->first_sample, &plan->n_share);
@@ -162,7 +185,6 @@ facet_status tile_plan_create(const render_settings *r, render_state *state, til
         return facet_error_set(why, FACET_BAD_VALUE, "", "a film %s features cannot be continued %s them",
                                f->features ? "with" : "without", f->features ? "without" : "with");
     for (uint32_t i = 0; i < plan->n_tiles && !status; i++) status = check_tile(plan, i, why);
-    if (!status) judge_all(plan);
     return status;
 }
 

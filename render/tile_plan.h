@@ -22,6 +22,7 @@ typedef struct tile_plan {
     uint32_t first_sample, n_share; /* the samples of each pixel that are to be rendered */
     double noise_target;            /* 0: none */
     uint8_t *is_done;               /* [n_tiles] has as small an error as is asked for */
+    double noise;                   /* film_noise when tile_plan_look was last called */
 } tile_plan;
 
 /* Makes an empty state's film, or takes up the positions of a state's tiles.  settings: crop filled in. */
@@ -36,13 +37,16 @@ uint32_t tile_plan_position(const tile_plan *plan, tile where);
 /* Where the pass ends that begins after so many samples per pixel. */
 uint32_t tile_plan_pass_end(const tile_plan *plan, uint32_t position);
 
-/* To be called when tile i has come to the end of a pass: whether it is done, now and from now on.  Threads may call for
- * different tiles at once. */
-bool tile_plan_judge(const tile_plan *plan, uint32_t i);
+/* To be called when tile i has come to the end of a pass: marks it as done if it is.  Threads may call for different
+ * tiles at once. */
+void tile_plan_judge(const tile_plan *plan, uint32_t i);
 
-/* To be called when all tiles have come to the end of a pass: from the first on that tells anything of the noise,
- * tiles are judged. */
-void tile_plan_end_pass(tile_plan *plan);
+/* Estimates the noise and judges all tiles that are at the end of a pass, from the first pass on after which the noise
+ * can be judged by.  No thread may be at work. */
+void tile_plan_look(tile_plan *plan);
+
+/* Whole passes that all tiles have behind them which are not done, in samples per pixel. */
+uint32_t tile_plan_passed(const tile_plan *plan);
 
 /* The least position of tiles that are not done; n_share if all are. */
 uint32_t tile_plan_least(const tile_plan *plan);
@@ -54,7 +58,7 @@ uint32_t tile_plan_most(const tile_plan *plan);
 uint64_t tile_plan_samples(const tile_plan *plan);
 uint64_t tile_plan_samples_left(const tile_plan *plan);
 
-/* Whether the noise is what is asked for, in the picture or in every tile of it. */
+/* Whether the noise is what is asked for, in the picture at the end of a pass, or in every tile of it. */
 bool tile_plan_is_quiet(const tile_plan *plan);
 
 #ifdef __cplusplus

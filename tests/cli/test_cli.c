@@ -57,7 +57,8 @@ static const struct {
 } helps[] = {
     {"render",
      "--output --spp --size --camera --env --env-scale --depth --threads --seed --crop --time --noise "
-     "--aov --denoise --oidn --material --strategy --sampler --isa --checkpoint --checkpoint-interval --resume --shard --exposure --view "
+     "--aov --denoise --oidn "
+     "--material --strategy --sampler --isa --checkpoint --checkpoint-interval --resume --shard --exposure --view "
      "--half --quiet --events --json --help -o -s -t -h"},
     {"merge", "--output --aov --denoise --oidn --exposure --view --half --quiet --help -o"},
     {"compare", "--metric --max --exposure --view --diff --json --help"},

@@ -80,9 +80,9 @@ static void what_layers_need_is_said_at_once(void **state)
            "--aov: noisy is the picture before --denoise, which is not given");
     expect(RENDER("--oidn", FACET_FAKE_OIDN, "-o", "x.exr"), 2,
            "--oidn: is the library of --denoise, which is not given");
-    expect(
-        RENDER("--denoise", "--oidn", "/nowhere/x.so", "-o", "x.exr"), 4,
-        "facet: error: /nowhere/x.so: cannot be loaded: cannot open shared object file: No such file or directory; give");
+    expect(RENDER("--denoise", "--oidn", "/nowhere/x.so", "-o", "x.exr"), 4,
+           "facet: error: /nowhere/x.so: cannot be loaded: cannot open shared object file: No such file or directory; "
+           "give --oidn");
     expect(RENDER("--spp", "1", "--aov", "albedo", "-o", "x.png"), 0, "--aov has no effect: no output is an .exr file");
     assert_true(access(in_folder(folder, "x.exr"), F_OK) != 0);
 }

@@ -147,7 +147,7 @@ static void exr_float_round_trip_is_bit_exact(void **state)
     }
 }
 
-/* Each of three pictures in turn is the one that readers look for; the others, of another size of sample, lie around it. */
+/* Each of three pictures in turn is the one that readers look for; the others, of smaller samples, lie around it. */
 static void exr_layers_do_not_disturb_each_other(void **state)
 {
     (void)state;

@@ -208,7 +208,8 @@ static double true_noise(const image *picture, const image *reference)
     return error/luminance;
 }
 
-/* The estimate takes samples for independent; those that are spread evenly err less. */
+/* The estimate takes samples for independent; those that are spread evenly err several times less in so simple a
+ * scene. */
 static void the_noise_that_is_promised_is_kept(void **state)
 {
     (void)state;
@@ -223,7 +224,7 @@ static void the_noise_that_is_promised_is_kept(void **state)
     r.spp = 64*result.spp/(SAMPLE_DIVISOR > 1 ? 8 : 1);
     assert_int_equal(render_continue(s, &r, &reference, &exact, NULL), FACET_OK);
     const double error = true_noise(&result.picture, &exact.picture);
-    if (!(error <= result.noise && error > result.noise/3))
+    if (!(error <= result.noise && error > result.noise/8))
         fail_msg("the noise is %g, and was estimated as %g", error, result.noise);
     render_result_destroy(&exact);
     render_result_destroy(&result);

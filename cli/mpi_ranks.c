@@ -1,0 +1,156 @@
+/* mpi_ranks.c: a crew (render/crew.h) whose messages travel by MPI.  The only file that calls MPI; any error inside
+ * MPI ends all ranks, which is MPI's default.
+ * SPDX-License-Identifier: MIT */
+#define _GNU_SOURCE /* sched_getaffinity */
+#include "cli/ranks.h"
+
+#include <mpi.h>
+#include <sched.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/report.h"
+
+enum { SHORT_MESSAGE = 1, BYTES = 2 }; /* tags */
+
+static int to_mpi(uint32_t rank)
+{
+    return rank == CREW_NOBODY ? MPI_PROC_NULL : (int)rank;
+}
+
+/* Short messages are below any MPI's limit for sending at once. */
+static void send(void *user, uint32_t to, const uint64_t words[CREW_WORDS])
+{
+    (void)user;
+    MPI_Send(words, CREW_WORDS, MPI_UINT64_T, to_mpi(to), SHORT_MESSAGE, MPI_COMM_WORLD);
+}
+
+static bool receive(void *user, uint32_t *from, uint64_t words[CREW_WORDS])
+{
+    int is_there = 0;
+    MPI_Status status;
+    (void)user;
+    MPI_Iprobe(MPI_ANY_SOURCE, SHORT_MESSAGE, MPI_COMM_WORLD, &is_there, &status);
+    if (!is_there) return false;
+    *from = (uint32_t)status.MPI_SOURCE;
+    MPI_Recv(words, CREW_WORDS, MPI_UINT64_T, status.MPI_SOURCE, SHORT_MESSAGE, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    return true;
+}
+
+static size_t exchange(void *user, uint32_t to, const void *bytes, size_t n, uint32_t from, void *buffer, size_t most)
+{
+    MPI_Status status;
+    int count = 0;
+    (void)user;
+    MPI_Sendrecv(bytes, (int)n, MPI_BYTE, to_mpi(to), BYTES, buffer, (int)most, MPI_BYTE, to_mpi(from), BYTES,
+                 MPI_COMM_WORLD, &status);
+    if (from != CREW_NOBODY) MPI_Get_count(&status, MPI_BYTE, &count);
+    return (size_t)count;
+}
+
+/* The first line of what the library calls itself. */
+static void name_library(char name[MPI_MAX_LIBRARY_VERSION_STRING])
+{
+    int length = 0;
+    MPI_Get_library_version(name, &length);
+    name[strcspn(name, ",\n")] = 0;
+    for (char *c = name; *c; c++)
+        if (*c == '\t') *c = ' ';
+}
+
+int ranks_start(crew *c, const launch *by)
+{
+    int provided, rank, n_ranks;
+    MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &provided);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
+    *c = (crew){
+        .rank = (uint32_t)rank, .n_ranks = (uint32_t)n_ranks, .send = send, .receive = receive, .exchange = exchange};
+    if (gethostname(c->name, sizeof c->name)) snprintf(c->name, sizeof c->name, "?");
+    c->name[sizeof c->name - 1] = 0;
+    if (provided < MPI_THREAD_FUNNELED && rank == 0)
+        return fail(EXIT_WORLD, NULL, NULL, "this MPI does not allow threads; use one that has MPI_THREAD_FUNNELED");
+    if (provided < MPI_THREAD_FUNNELED) return EXIT_WORLD;
+    if (by->n_ranks > 1 && n_ranks == 1) { /* every process believes to be alone */
+        char library[MPI_MAX_LIBRARY_VERSION_STRING];
+        name_library(library);
+        return by->rank ? EXIT_USAGE
+                        : fail(EXIT_USAGE, NULL, NULL,
+                               "started as one of %u processes by another MPI than facet's, which is %s; start it "
+                               "with that one's mpirun, or give --mpi off",
+                               by->n_ranks, library);
+    }
+    return 0;
+}
+
+/* Whether two sets of processors have one in common. */
+static bool do_meet(const cpu_set_t *a, const cpu_set_t *b)
+{
+    cpu_set_t both;
+    CPU_AND(&both, a, b);
+    return CPU_COUNT(&both) > 0;
+}
+
+uint32_t ranks_threads(void)
+{
+    MPI_Comm machine;
+    int n_here, n_sharing = 0;
+    cpu_set_t own;
+    CPU_ZERO(&own);
+    if (sched_getaffinity(0, sizeof own, &own)) CPU_SET(0, &own);
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+    MPI_Comm_size(machine, &n_here);
+    cpu_set_t *all = calloc((size_t)n_here, sizeof *all);
+    if (!all) MPI_Abort(MPI_COMM_WORLD, EXIT_WORLD);
+    MPI_Allgather(&own, sizeof own, MPI_BYTE, all, sizeof own, MPI_BYTE, machine);
+    for (int i = 0; i < n_here; i++) n_sharing += do_meet(&own, &all[i]);
+    free(all);
+    MPI_Comm_free(&machine);
+    const int n = CPU_COUNT(&own)/(n_sharing ? n_sharing : 1);
+    return n > 1 ? (uint32_t)n : 1;
+}
+
+/* MPICH before 4.2 may wait for ever in MPI_Finalize: over a network, a process that has got into its last barrier no
+ * longer answers one that still closes its connections (pmodels/mpich, pull request 6596).  There, the leader ends all
+ * at once when it has written everything. */
+#if defined(MPICH_NUMVERSION) && MPICH_NUMVERSION < 40200000
+enum { CAN_FINALIZE = false };
+#else
+enum { CAN_FINALIZE = true };
+#endif
+
+static bool is_under_way(void)
+{
+    int has_begun, has_ended;
+    MPI_Initialized(&has_begun);
+    MPI_Finalized(&has_ended);
+    return has_begun && !has_ended;
+}
+
+static int count_ranks(int *rank)
+{
+    int n_ranks;
+    MPI_Comm_rank(MPI_COMM_WORLD, rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &n_ranks);
+    return n_ranks;
+}
+
+void ranks_part(void)
+{
+    int rank;
+    if (!is_under_way()) return;
+    if (CAN_FINALIZE || count_ranks(&rank) == 1) MPI_Finalize();
+    else
+        while (rank > 0) pause(); /* until the leader ends the job */
+}
+
+void ranks_end(int status)
+{
+    ranks_part();
+    if (!is_under_way()) return;
+    fflush(NULL);
+    if (!freopen("/dev/null", "w", stderr)) return; /* MPI_Abort would tell of itself */
+    MPI_Abort(MPI_COMM_WORLD, status);
+}
