@@ -79,11 +79,16 @@ static void add_ball(scene *s, size_t material_index, real3 center, float radius
     add_mesh(s, &m);
 }
 
-static scene *one_ball_scene(void)
+scene *bench_ball_scene(uint32_t n)
 {
     scene *s = add_box();
-    add_ball(s, add_material(s, "lambert kd=.7,.6,.4", 0), make3(0, .8f, 0), .7f, 76);
+    add_ball(s, add_material(s, "lambert kd=.7,.6,.4", 0), make3(0, .8f, 0), .7f, n);
     return s;
+}
+
+static scene *one_ball_scene(void)
+{
+    return bench_ball_scene(76);
 }
 
 static scene *eight_balls_scene(void)

@@ -23,6 +23,9 @@ typedef struct bench_scene {
 enum { BENCH_SCENES = 7 };
 extern const bench_scene bench_scenes[BENCH_SCENES];
 
+/* The ball of `70k` with 12 n^2 triangles. */
+scene *bench_ball_scene(uint32_t n);
+
 #ifdef __cplusplus
 }
 #endif
