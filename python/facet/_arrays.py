@@ -115,8 +115,8 @@ def run(loop: Any, bsdf: Any, shape: tuple[int, ...], names: Sequence[str], argu
         place = names[fault.argument - 1] + (f"{where}" if where else "")
         if names[fault.argument - 1] == "u":
             raise ValueError(f"{place} is {value}; give numbers in [0, 1)")
-        length = float(np.linalg.norm([fault.value[k] for k in range(3)]))
-        raise ValueError(f"{place} is {value}, of length {length:.6g}; give unit vectors")
+        norm = float(np.linalg.norm([fault.value[k] for k in range(3)]))
+        raise ValueError(f"{place} is {value}, of length {norm:.6g}; give unit vectors")
 
 
 def loop_of(name: str, dtype: np.dtype[Any]) -> Any:

@@ -10,7 +10,9 @@ from __future__ import annotations
 import os
 from typing import Any, NoReturn
 
-from ._abi import ffi
+from ._abi import ffi as _ffi
+
+ffi: Any = _ffi
 
 lib: Any = ffi.dlopen(os.path.join(os.path.dirname(os.path.abspath(__file__)), "_libfacet.so"))
 
