@@ -150,7 +150,7 @@ def _bsdf_class(mi: Any) -> Any:
             is_on = is_on & (np.abs(np.einsum("nk,nk->n", w, w) - 1) < 5e-5)
         if is_on.all():
             return is_on, list(directions)
-        return is_on, [np.where(is_on[:, None], w, np.float32([0, 0, 1])) for w in directions]
+        return is_on, [np.where(is_on[:, None], w, np.array([0, 0, 1], np.float32)) for w in directions]
 
     def pair(si: Any, wo: Any, active: Any) -> tuple[Array, Array, Array]:
         """Active lanes, the direction to the light and the one to the viewer, which are Mitsuba's wo and si.wi."""
