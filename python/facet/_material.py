@@ -186,30 +186,37 @@ class Material:
             (view(i, shape, 3), view(o, shape, 3), view(f, shape, 3), view(p, shape, 1)))
         return f, p[()]
 
-    def sample(self, wo: ArrayLike, u: ArrayLike) -> Sample:
+    def sample(self, wo: ArrayLike, u: ArrayLike, *, out: Sample | None = None) -> Sample:
         """Draws wi for wo, shape (..., 3), from numbers u in [0, 1), shape (..., 3), that are drawn by the caller.
 
-        u[..., 0] and u[..., 1] place the direction, u[..., 2] picks the lobe.
+        u[..., 0] and u[..., 1] place the direction, u[..., 2] picks the lobe.  `out`, the result of an earlier call of the
+        same shape, is filled and returned.
 
         >>> import numpy as np, facet
         >>> s = facet.ggx(alpha=.3).sample([0, .6, .8], np.random.default_rng(1).random((1000, 3), np.float32))
         >>> s.wi.shape, s.pdf.shape, s.weight.shape
         ((1000, 3), (1000,), (1000, 3))
         """
-        wi, p, weight, _, _ = self._draw(wo, u, False)
-        return Sample(wi, p[()], weight)
+        wi, p, weight, _, _ = self._draw(wo, u, False, out)
+        return Sample(wi, p[()], weight) if out is None else out
 
     def sample_lobes(self, wo: ArrayLike, u: ArrayLike) -> LobeSample:
         """The same draws, with the lobe of each and the ratio of indices where it refracts; not in batches, thus slower."""
         wi, p, weight, lobe, eta = self._draw(wo, u, True)
         return LobeSample(wi, p[()], weight, lobe[()], eta[()])
 
-    def _draw(self, wo: ArrayLike, u: ArrayLike, has_lobes: bool) -> tuple[Array, Array, Array, Array, Array]:
+    def _draw(self, wo: ArrayLike, u: ArrayLike, has_lobes: bool,
+              out: Sample | None = None) -> tuple[Array, Array, Array, Array, Array]:
         dtype = precision(wo, u)
         o, x = as_triples(wo, dtype, "wo"), as_triples(u, dtype, "u")
         shape = common_shape(("wo", o), ("u", x))
-        wi, weight = new_triples(shape, dtype, (o, x)), new_triples(shape, dtype, (o, x))
-        p, n = np.empty(shape, dtype), shape if has_lobes else (0,)
+        if out is None:
+            wi, weight = new_triples(shape, dtype, (o, x)), new_triples(shape, dtype, (o, x))
+            p = np.empty(shape, dtype)
+        else:
+            wi, weight = (check_out(a, (*shape, 3), dtype, (o, x)) for a in (out.wi, out.weight))
+            p = check_out(out.pdf, shape, dtype, (o, x, wi, weight))
+        n = shape if has_lobes else (0,)
         lobe, eta = np.empty(n, np.int32), np.empty(n, dtype)
         c = ffi.new("facet_python_samples *")
         fill_view(c.wi, wi, shape, 3)

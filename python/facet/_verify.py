@@ -235,10 +235,12 @@ def _check_furnace(s: _Subject, views: list[Array], is_lossless: bool) -> Check:
         found: Integral = over_light(lambda wi: s.eval(wi, o), o, _PART)
         albedo = float(found.values.max())
         off = float(np.abs(found.values - 1).max()) if is_lossless else max(albedo - 1, 0.0)
-        if found.error > 1e-4:
-            return Check("furnace", None if off <= found.error else False, off, 1e-4,
+        tolerance = 1e-3 if is_lossless else 1e-4
+        slack = 0.0 if is_lossless else max(1 - albedo, 0.0)
+        if found.error > tolerance + slack and off <= tolerance + found.error:  # it may be so, and it may not
+            return Check("furnace", None, off, tolerance,
                          f"f is too rough to integrate: albedo {albedo:.6f} within {found.error:.2g}", _triple(o))
-        rows.append((off, 1e-3 if is_lossless else 1e-4, f"albedo {albedo:.6f}", o))
+        rows.append((off, tolerance, f"albedo {albedo:.6f}", o))
     if not is_lossless and all(r[0] == 0 for r in rows):
         highest = max(rows, key=lambda r: r[2])
         return Check("furnace", True, 0, 1e-4, f"{highest[2]} at most", _triple(highest[3]))
@@ -269,8 +271,10 @@ def _compare(name: str, a: Array, b: Array, wi: Array, wo: Array, words: str) ->
     with np.errstate(invalid="ignore", divide="ignore"):
         off = np.where(largest > 1e-300, np.abs(a - b) / largest, 0.0)
     off = np.where(np.isfinite(off), off, np.inf)
-    k, channel = np.unravel_index(int(np.argmax(off)), off.shape)
-    worst = float(off[k, channel])
+    worst = float(off.max())
+    # What is shown of many that fail is where most light is at stake.
+    shown = np.where(off > 1e-6, np.abs(a - b), -1) if worst > 1e-6 else off
+    k, channel = np.unravel_index(int(np.argmax(shown)), off.shape)
     return Check(name, worst <= 1e-6, worst, 1e-6, words.format(a[k, channel], b[k, channel]), _triple(wo[k]), _triple(wi[k]))
 
 

@@ -110,7 +110,7 @@ int PUBLIC(sample)(const BSDF *bsdf, size_t n, const facet_python_array *wo, con
                  at_lobe = array_cursor_start(&samples->lobe), at_eta = array_cursor_start(&samples->eta);
     const int has_lobes = samples->lobe.data != NULL;
     NAME(block) o, x, i, density, weight, eta;
-    int32_t lobe[ARRAY_BLOCK];
+    int32_t lobe[ARRAY_BLOCK] = {0};
     EACH_BLOCK(n)
     {
         NAME(read_block)(&o, &at_wo, some, 3);

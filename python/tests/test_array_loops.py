@@ -176,6 +176,19 @@ def test_out_is_refused_where_it_cannot_be_filled() -> None:
         m.eval(n, n, out=[0, 0, 0])  # type: ignore[arg-type]
 
 
+def test_samples_are_drawn_into_arrays_that_are_there() -> None:
+    m, rng = facet.ggx(alpha=0.2), np.random.default_rng(2)
+    wo, u, v = unit_vectors(rng, 30, above=True), rng.random((30, 3), np.float32), rng.random((30, 3), np.float32)
+    first = m.sample(wo, u)
+    kept = [a.copy() for a in first]
+    assert m.sample(wo, v, out=first) is first
+    for got, expected, old in zip(first, m.sample(wo, v), kept):
+        np.testing.assert_array_equal(got, expected)
+        assert not np.array_equal(got, old)
+    with pytest.raises(ValueError, match="the result is float32 of shape"):
+        m.sample(wo[:3], u[:3], out=first)
+
+
 def test_precision_is_that_of_the_arrays() -> None:
     m = facet.ggx()
     single, double = np.array([0, 0, 1], np.float32), np.array([0, 0, 1.0])
