@@ -95,7 +95,8 @@ static void NAME(tell)(const NAME(block)*b, size_t i, size_t first, int argument
 static int NAME(is_unit)(REAL x, REAL y, REAL z)
 {
     const REAL excess = x*x + y*y + z*z - 1;
-    return (excess <= (REAL)FACET_PYTHON_UNIT) & (excess >= -(REAL)FACET_PYTHON_UNIT); /* false for NaN, too */
+    const REAL size = excess < 0 ? -excess : excess;
+    return size <= (REAL)FACET_PYTHON_UNIT; /* false for NaN, too */
 }
 
 EACH_ISA static int NAME(check_units)(const NAME(block)*b, size_t n, size_t first, int argument,
