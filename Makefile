@@ -8,7 +8,7 @@ BUILD = cmake --build --preset
 # Seconds for each fuzzing program.
 FUZZ_SECONDS ?= 60
 
-.PHONY: help setup setup-check build demo test bench format check sanitize tsan fuzz coverage clean
+.PHONY: help setup setup-check build demo test test-c test-python bench format check sanitize tsan fuzz coverage clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1|/p' Makefile | while IFS='|' read -r name what; do \
@@ -30,8 +30,14 @@ demo: setup ## build the program and render the built-in scene to facet.png
 	build/release/facet render
 	@echo "the picture: $(CURDIR)/facet.png"
 
-test: build ## build and run all tests (PRESET=dev)
+test: test-c ## build and run all tests (PRESET=dev)
+	@tools/test_python.sh --optional build/$(PRESET)
+
+test-c: build ## ... without those of the Python package
 	ctest --preset $(PRESET) $(CTEST_FLAGS)
+
+test-python: build ## those of the Python package alone, which need PyPI
+	@tools/test_python.sh build/$(PRESET)
 
 bench: setup ## build with -O3 and run the benchmarks
 	cmake --preset release

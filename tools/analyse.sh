@@ -6,7 +6,7 @@ set -eu
 cd "$(dirname "$0")/.."
 
 cppcheck --quiet --std=c11 --language=c --enable=warning,portability --inline-suppr --error-exitcode=1 -j 2 \
-    --suppressions-list=tools/cppcheck.txt -D__x86_64__ -D__GNUC__=12 -Iinclude -I. core verify render io plot cli
+    --suppressions-list=tools/cppcheck.txt -D__x86_64__ -D__GNUC__=12 -Iinclude -I. core verify render io plot cli python/native
 echo "cppcheck: ok"
 
 # clang's own compile commands: gcc's have options that clang-tidy does not know.

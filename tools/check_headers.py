@@ -20,7 +20,7 @@ import tree
 COMMON = ["-fsyntax-only", "-Wall", "-Wextra", "-Wshadow", "-Werror", "-fopenmp-simd", "-D_POSIX_C_SOURCE=200809L",
           "-D_DEFAULT_SOURCE", "-ffp-contract=off"]
 KERNELS = "core/kernel/"
-PARTS = ("core/*_text.h", "render/*_text.h", "core/kernel/kmath_*.h", "tests/*_text.h", "tests/*_cases.h")
+PARTS = ("core/*_text.h", "render/*_text.h", "python/*_text.h", "core/kernel/kmath_*.h", "tests/*_text.h", "tests/*_cases.h")
 # A kernel's static functions are there for whoever includes it.
 KERNEL_FLAGS = ["-Wno-unused-function"]
 
@@ -56,7 +56,7 @@ def check(root):
     if not shutil.which(cxx):
         print("note: no C++ compiler was found: headers are not checked as C++ (Debian package g++)")
         cxx = None
-    names = [n for n in tree.files(root, [".h"]) if tree.top(n) in tree.PRODUCT_FOLDERS + ["tests", "bench"]]
+    names = [n for n in tree.files(root, [".h"]) if tree.top(n) in tree.PRODUCT_FOLDERS + ["python", "tests", "bench"]]
     names = [n for n in names if not any(fnmatch.fnmatchcase(n, part) for part in PARTS)]
     jobs = [(name, what, command) for name in names for what, command in variants(name, cxx)]
     with ThreadPoolExecutor(2) as pool:

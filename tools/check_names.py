@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""File names are snake_case and unique, so that a name alone says which file is meant.
+"""File names are snake_case and unique, so that a name alone says which file is meant; examples may begin with a number.
 
 A .c and its .h share a name and a folder.  Folders of tests/data, corpora and documents are not looked at.
 
@@ -20,6 +20,8 @@ def check(root):
             continue
         folder, base = os.path.split(name)
         stem, suffix = os.path.splitext(base)
+        if tree.top(name) == "examples":  # numbered in the order of reading
+            stem = re.sub(r"^\d\d_", "", stem)
         if not SNAKE_CASE.fullmatch(stem.strip("_") if suffix == ".py" else stem):
             problems.append(f"{name}: file names are snake_case")
         if suffix == ".py":

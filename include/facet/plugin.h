@@ -11,7 +11,7 @@
  * point away from the surface; wi towards the light, wo towards the viewer.  Every function must be a pure function of
  * its arguments: facet calls it from several threads at once, in any order.
  *
- * examples/plugin_phong.c is a whole one.
+ * examples/07_plugin_phong.c is a whole one.
  * SPDX-License-Identifier: MIT */
 #pragma once
 

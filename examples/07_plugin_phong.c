@@ -1,6 +1,6 @@
-/* plugin_phong.c: a reflection model of one's own, Phong's distribution of normals between V-shaped grooves.
+/* 07_plugin_phong.c: a reflection model of one's own, Phong's distribution of normals between V-shaped grooves.
  * [walter07] Walter et al., Microfacet models for refraction, EGSR 2007.  [blinn77] Blinn, SIGGRAPH 1977.
- *     cc -shared -fPIC -I include -o plugin_phong.so examples/plugin_phong.c -lm
+ *     cc -shared -fPIC -I include -o plugin_phong.so examples/07_plugin_phong.c -lm
  *     facet verify --plugin ./plugin_phong.so
  * SPDX-License-Identifier: MIT */
 #include <math.h>

@@ -1,4 +1,4 @@
-/* first_material.c: a material from its text form, evaluated for one pair of directions.
+/* 01_first_material.c: a material from its text form, evaluated for one pair of directions.
  * SPDX-License-Identifier: MIT */
 #include <stdio.h>
 
