@@ -5,8 +5,9 @@
 PRESET ?= dev
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 BUILD = cmake --build --preset
-# Seconds for each fuzzing program.
-FUZZ_SECONDS ?= 60
+# Seconds for all fuzzing programs together, and which of them; none named: all.
+FUZZ_SECONDS ?= 600
+FUZZ ?=
 
 .PHONY: help setup setup-check build demo test bench format check sanitize tsan fuzz coverage clean
 
@@ -57,10 +58,10 @@ tsan: setup-check ## the tests with threads under ThreadSanitizer
 	$(BUILD) tsan -j $(JOBS)
 	ctest --preset tsan -L threads
 
-fuzz: setup-check ## each fuzzing program for FUZZ_SECONDS=60 from its corpus
+fuzz: setup-check ## the fuzzing programs from their corpora, FUZZ_SECONDS=600 in all (FUZZ="png exr": only these)
 	cmake --preset fuzz
 	$(BUILD) fuzz -j $(JOBS)
-	@tools/fuzz.sh build/fuzz/tests/fuzz $(FUZZ_SECONDS)
+	@tools/fuzz.py build/fuzz/tests/fuzz $(FUZZ_SECONDS) $(FUZZ)
 
 coverage: setup-check ## run the tests with gcov and write build/coverage/coverage.html
 	cmake --preset coverage

@@ -19,7 +19,8 @@ typedef struct render_options {
     const char *camera, *env, *strategy, *sampler, *isa, *view;
     const char *checkpoint, *resume, *shard, *events;
     option_number env_scale, time, noise, exposure, checkpoint_interval;
-    bool half, quiet, json;
+    uint64_t max_memory; /* 0: the default */
+    bool half, quiet, json, allow_outside;
     /* what the command line as a whole leads to */
     const char *scene_path; /* NULL: the demo scene */
     char *default_output;   /* owned; NULL when outputs were named */
