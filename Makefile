@@ -9,7 +9,16 @@ BUILD = cmake --build --preset
 FUZZ_SECONDS ?= 600
 FUZZ ?=
 
-.PHONY: help setup setup-check build demo test bench format check sanitize tsan fuzz coverage clean
+# Where `make install` puts things, as on GNU systems; DESTDIR comes before all of them.
+prefix ?= /usr/local
+bindir ?= $(prefix)/bin
+libdir ?= $(prefix)/lib
+includedir ?= $(prefix)/include
+datarootdir ?= $(prefix)/share
+mandir ?= $(datarootdir)/man
+
+.PHONY: help setup setup-check build demo install uninstall deb amalgamation test test-install bench format check \
+    sanitize tsan fuzz coverage clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1|/p' Makefile | while IFS='|' read -r name what; do \
@@ -21,6 +30,9 @@ setup: ## install the missing packages that building and testing need
 setup-check: ## ... and those of the checks
 	@tools/setup.sh check
 
+setup-package:
+	@tools/setup.sh package
+
 build: setup ## build everything (PRESET=dev)
 	cmake --preset $(PRESET)
 	$(BUILD) $(PRESET) -j $(JOBS)
@@ -30,6 +42,25 @@ demo: setup ## build the program and render the built-in scene to facet.png
 	$(BUILD) release -j $(JOBS) --target facet_program
 	build/release/facet render
 	@echo "the picture: $(CURDIR)/facet.png"
+
+install: ## install below prefix=/usr/local (also bindir, libdir, includedir, datarootdir, mandir, DESTDIR)
+	cmake --preset release -DCMAKE_INSTALL_PREFIX=$(prefix) -DCMAKE_INSTALL_BINDIR=$(bindir) \
+	    -DCMAKE_INSTALL_LIBDIR=$(libdir) -DCMAKE_INSTALL_INCLUDEDIR=$(includedir) \
+	    -DCMAKE_INSTALL_DATAROOTDIR=$(datarootdir) -DCMAKE_INSTALL_MANDIR=$(mandir)
+	$(BUILD) release -j $(JOBS)
+	DESTDIR=$(DESTDIR) cmake --install build/release
+
+uninstall: ## remove what the last `make install` installed
+	sed 's|^|$(DESTDIR)|' build/release/install_manifest.txt | xargs -d '\n' rm -f
+
+deb: setup-package ## Debian packages in build/deb
+	@tools/make_deb.sh build/deb
+
+amalgamation: ## libfacet as one file, build/amalgamation/facet.c, and its header
+	@tools/make_amalgamation.py build/amalgamation
+
+test-install: deb ## install the packages into a fresh Debian 12 and use them (minutes)
+	@tests/packaging/test_install.sh build/deb
 
 test: build ## build and run all tests (PRESET=dev)
 	ctest --preset $(PRESET) $(CTEST_FLAGS)

@@ -26,7 +26,8 @@ static void print_help(void)
            "Directions are unit vectors in the local frame with the normal (0,0,1), pointing away from the surface.\n"
            "Results go to stdout, messages and progress to stderr.\n\n"
            "  facet --version            print the version\n"
-           "  facet help [COMMAND]       print this overview, or the help of a command\n\n%s",
+           "  facet help [COMMAND]       print this overview, or the help of a command\n"
+           "  facet help --json          print all helps as one JSON object\n\n%s",
            exit_status_help);
 }
 
@@ -48,6 +49,10 @@ static int help(const char *name)
 {
     if (!name) {
         print_help();
+        return finish_stdout(0);
+    }
+    if (strcmp(name, "--json") == 0) {
+        print_help_json();
         return finish_stdout(0);
     }
     const command *c = find_command(name);

@@ -173,7 +173,7 @@ static int set_value(const option *o, const char *text, void *value)
 
 /* ---- Arguments --------------------------------------------------------------------------------- */
 
-static const option help_option = {"help", 'h', OPTION_FLAG, 0, NULL, "print this help", 0, 0, NULL};
+const option help_option = {"help", 'h', OPTION_FLAG, 0, NULL, "print this help", 0, 0, NULL};
 
 /* The option that argument i spells, or NULL with the message printed; *text is the value attached to it. */
 static const option *find_option(const command *c, const char *argument, const char **text)

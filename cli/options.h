@@ -76,6 +76,9 @@ enum { PARSE_GO = -1 };
  * ones as NULL. */
 int options_parse(const command *c, int argc, char **argv, void *values, const char **operands);
 
+/* `--help`, which every command has. */
+extern const option help_option;
+
 /* The complete help of a command, on stdout. */
 void command_help(const command *c);
 

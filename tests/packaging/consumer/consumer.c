@@ -11,7 +11,8 @@ int main(void)
     facet_error why;
     const float wi[3] = {0, 0.6f, 0.8f}, wo[3] = {0, -0.6f, 0.8f};
     float f[3];
-    if (facet_material_parse("ggx alpha=.3 ks=.9,.7,.3", &material, &why) || facet_bsdf_prepare(&material, &bsdf, &why)) {
+    if (facet_material_parse("ggx alpha=.3 ks=.9,.7,.3", &material, &why) ||
+        facet_bsdf_prepare(&material, &bsdf, &why)) {
         fprintf(stderr, "%s: %s\n", why.place, why.text);
         return 1;
     }
