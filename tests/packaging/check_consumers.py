@@ -21,7 +21,7 @@ EXPECTED = "0.9705 0.7549 0.3237, facet "
 def run(*command, **more):
     done = subprocess.run(command, capture_output=True, text=True, **more)
     if done.returncode:
-        sys.exit(f"{' '.join(command)}\nstatus {done.returncode}\n{done.stdout}{done.stderr}")
+        sys.exit(f"{' '.join(command)}\nstatus {done.returncode}\n{done.stdout[-2000:]}{done.stderr[:2000]}")
     return done.stdout
 
 
@@ -95,16 +95,37 @@ def check_folder(_, folder):
         expect(os.path.join(folder, "build", "with_" + kind))
 
 
-def check_amalgamation(_, folder):
+def symbols(file):
+    """The global names that a library or an object defines."""
+    lines = run("nm", "--defined-only", "--extern-only", file).splitlines()
+    return {line.split()[2] for line in lines if len(line.split()) == 3}
+
+
+def check_amalgamation(build, folder):
     run(sys.executable, "-B", os.path.join(ROOT, "tools", "make_amalgamation.py"), folder)
     names = sorted(os.listdir(folder))
     if names != ["facet.c", "facet.h"]:
         sys.exit(f"two files were expected, not {names}")
     os.mkdir(os.path.join(folder, "facet"))
-    os.rename(os.path.join(folder, "facet.h"), os.path.join(folder, "facet", "facet.h"))
-    source, program = os.path.join(CONSUMER, "consumer.c"), os.path.join(folder, "amalgamated")
-    run("cc", "-I", folder, "-I", os.path.join(folder, "facet"), source, os.path.join(folder, "facet.c"), "-lm", "-o", program)
-    expect(program)
+    shutil.copy(os.path.join(folder, "facet.h"), os.path.join(folder, "facet", "facet.h"))
+    library, include = os.path.join(build, "libfacet.a"), os.path.join(ROOT, "include")
+    hashes = os.path.join(folder, "hashes_of_library")
+    run("cc", "-I", include, os.path.join(CONSUMER, "all_models.c"), library, "-lm", "-o", hashes)
+    wanted = run(hashes)
+    compilers = [name for name in ("cc", "clang-14") if shutil.which(name)]
+    for compiler in compilers:
+        made = os.path.join(folder, "facet.o")
+        run(compiler, "-std=c11", "-Wall", "-Wextra", "-Werror", "-ffp-contract=off", "-c", os.path.join(folder, "facet.c"), "-o",
+            made)
+        if symbols(made) != symbols(library):
+            sys.exit(f"{compiler}: other names than the library's: {sorted(symbols(made) ^ symbols(library))}")
+        for name in ("consumer", "all_models"):
+            run(compiler, "-I", folder, os.path.join(CONSUMER, name + ".c"), made, "-lm", "-o", os.path.join(folder, name))
+        expect(os.path.join(folder, "consumer"))
+        found = run(os.path.join(folder, "all_models"))
+        if found != wanted:
+            sys.exit(f"{compiler}: other bits than the library's:\n{found}{wanted}")
+        print(found, end="")
 
 
 def main():
