@@ -2,9 +2,9 @@
  *
  *     replay_NAME FOLDER [CHANGES]
  *
- * Each file is given as it is, cut short at 64 places, and with one byte changed at 256 places (CHANGES, and a quarter
- * of that); so is an empty input.  The places come from a fixed seed: a failure repeats.  Any crash, hang or report of a
- * sanitizer is the failure.
+ * Each file is given as it is, cut short at 64 places, and with one byte changed at 256 places (CHANGES, and a
+ * quarter of that); so is an empty input.  The places come from a fixed seed: a failure repeats.  Any crash, hang or
+ * report of a sanitizer is the failure.
  * SPDX-License-Identifier: MIT */
 #include <dirent.h>
 #include <stdint.h>
