@@ -163,7 +163,7 @@ static bool read_file(gltf *g, const json_place *place, const char *name, unsign
 
 static bool read_file_uri(gltf *g, const json_place *place, const char *uri, unsigned char **bytes, size_t *size)
 {
-    char *name = malloc(strlen(uri) + 1);
+    char *name = calloc(strlen(uri) + 1, 1);
     if (!name) return gltf_no_memory(place);
     bool is_read = decode_percent(place, uri, name);
     if (is_read && !name[0]) is_read = json_fail(place, FACET_BAD_FILE, "is empty; it must name a file");

@@ -81,8 +81,10 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     for (size_t at = 1; at < size && argc <= MOST_ARGUMENTS; at++) {
         const size_t start = at;
         while (at < size && bytes[at] != '\n') at++;
-        argv[argc] = strndup((const char *)bytes + start, at - start);
-        require(argv[argc++] != NULL);
+        argv[argc] = malloc(at - start + 1);
+        require(argv[argc] != NULL);
+        memcpy(argv[argc], bytes + start, at - start);
+        argv[argc++][at - start] = 0;
     }
     run_command(parse, argc, argv);
     for (int i = 1; i < argc; i++) free(argv[i]);
