@@ -45,12 +45,16 @@ def find_one(folder, name):
     sys.exit(f"nothing called {name} was installed below {folder}")
 
 
-def check_names(prefix):
+def check_names(prefix, has_program):
     """Every file of the installation is where GNU systems look for it."""
     library = os.path.dirname(find_one(prefix, "libfacet.a"))
     wanted = [os.path.join(library, name) for name in ("libfacet.so", "libfacet.so.0", "pkgconfig/facet.pc",
                                                        "cmake/facet/facet-config-version.cmake")]
     wanted += [os.path.join(prefix, name) for name in ("include/facet/facet.h", "include/facet/plugin.h")]
+    if has_program:
+        wanted += [os.path.join(prefix, name) for name in ("bin/facet", "share/man/man1/facet.1", "share/man/man1/facet-render.1",
+                                                           "share/bash-completion/completions/facet",
+                                                           "share/zsh/site-functions/_facet")]
     for path in wanted:
         if not os.path.exists(path):
             sys.exit(f"{path} was not installed")
@@ -63,7 +67,11 @@ def check_names(prefix):
 def check_installed(build, folder):
     prefix = os.path.join(folder, "prefix")
     run("cmake", "--install", build, "--prefix", prefix)
-    library = check_names(prefix)
+    has_program = os.path.exists(os.path.join(build, "facet"))
+    library = check_names(prefix, has_program)
+    image = os.path.join(folder, "image")
+    run("cmake", "--install", build, "--prefix", "/usr", env=dict(os.environ, DESTDIR=image))
+    check_names(os.path.join(image, "usr"), has_program)
     build_with_cmake(os.path.join(folder, "build"), f"-DCMAKE_PREFIX_PATH={prefix}")
     for kind in ("facet", "static"):
         expect(os.path.join(folder, "build", "with_" + kind))
