@@ -17,7 +17,7 @@ import sys
 ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 FUZZ = os.path.join(ROOT, "tests", "fuzz")
 # A failure of either kind is found by its file; these keep one input from holding the others up.
-LIMITS = ["-timeout=20", "-rss_limit_mb=3072", "-max_len=65536"]
+LIMITS = ["-timeout=20", "-report_slow_units=20", "-rss_limit_mb=3072", "-max_len=65536"]
 STATUS = re.compile(r"^#(\d+)\s.*cov: (\d+) ft: (\d+) corp: (\d+)", re.M)
 
 
