@@ -5,10 +5,20 @@
 PRESET ?= dev
 JOBS ?= $(shell nproc 2>/dev/null || echo 2)
 BUILD = cmake --build --preset
-# Seconds for each fuzzing program.
-FUZZ_SECONDS ?= 60
+# Seconds for all fuzzing programs together, and which of them; none named: all.
+FUZZ_SECONDS ?= 600
+FUZZ ?=
 
-.PHONY: help setup setup-check build demo test test-c test-python bench format check sanitize tsan fuzz coverage clean
+# Where `make install` puts things, as on GNU systems; DESTDIR comes before all of them.
+prefix ?= /usr/local
+bindir ?= $(prefix)/bin
+libdir ?= $(prefix)/lib
+includedir ?= $(prefix)/include
+datarootdir ?= $(prefix)/share
+mandir ?= $(datarootdir)/man
+
+.PHONY: help setup setup-check build demo install uninstall deb amalgamation test test-c test-python test-install bench format check \
+    sanitize tsan fuzz coverage clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1|/p' Makefile | while IFS='|' read -r name what; do \
@@ -20,6 +30,9 @@ setup: ## install the missing packages that building and testing need
 setup-check: ## ... and those of the checks
 	@tools/setup.sh check
 
+setup-package:
+	@tools/setup.sh package
+
 build: setup ## build everything (PRESET=dev)
 	cmake --preset $(PRESET)
 	$(BUILD) $(PRESET) -j $(JOBS)
@@ -29,6 +42,25 @@ demo: setup ## build the program and render the built-in scene to facet.png
 	$(BUILD) release -j $(JOBS) --target facet_program
 	build/release/facet render
 	@echo "the picture: $(CURDIR)/facet.png"
+
+install: ## install below prefix=/usr/local (also bindir, libdir, includedir, datarootdir, mandir, DESTDIR)
+	cmake --preset release -DCMAKE_INSTALL_PREFIX=$(prefix) -DCMAKE_INSTALL_BINDIR=$(bindir) \
+	    -DCMAKE_INSTALL_LIBDIR=$(libdir) -DCMAKE_INSTALL_INCLUDEDIR=$(includedir) \
+	    -DCMAKE_INSTALL_DATAROOTDIR=$(datarootdir) -DCMAKE_INSTALL_MANDIR=$(mandir)
+	$(BUILD) release -j $(JOBS)
+	DESTDIR=$(DESTDIR) cmake --install build/release
+
+uninstall: ## remove what the last `make install` installed
+	sed 's|^|$(DESTDIR)|' build/release/install_manifest.txt | xargs -d '\n' rm -f
+
+deb: setup-package ## Debian packages in build/deb
+	@tools/make_deb.sh build/deb
+
+amalgamation: ## libfacet as one file, build/amalgamation/facet.c, and its header
+	@tools/make_amalgamation.py build/amalgamation
+
+test-install: deb ## install the packages into a fresh Debian 12 and use them (minutes)
+	@tests/packaging/test_install.sh build/deb
 
 test: test-c ## build and run all tests (PRESET=dev)
 	@tools/test_python.sh --optional build/$(PRESET)
@@ -63,10 +95,10 @@ tsan: setup-check ## the tests with threads under ThreadSanitizer
 	$(BUILD) tsan -j $(JOBS)
 	ctest --preset tsan -L threads
 
-fuzz: setup-check ## each fuzzing program for FUZZ_SECONDS=60 from its corpus
+fuzz: setup-check ## the fuzzing programs from their corpora, FUZZ_SECONDS=600 in all (FUZZ="png exr": only these)
 	cmake --preset fuzz
 	$(BUILD) fuzz -j $(JOBS)
-	@tools/fuzz.sh build/fuzz/tests/fuzz $(FUZZ_SECONDS)
+	@tools/fuzz.py build/fuzz/tests/fuzz $(FUZZ_SECONDS) $(FUZZ)
 
 coverage: setup-check ## run the tests with gcov and write build/coverage/coverage.html
 	cmake --preset coverage

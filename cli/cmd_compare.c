@@ -9,6 +9,7 @@
 #include "cli/commands.h"
 #include "cli/json_writer.h"
 #include "cli/report.h"
+#include "io/file.h"
 #include "io/image_file.h"
 #include "render/image_metrics.h"
 #include "render/view.h"
@@ -16,6 +17,7 @@
 typedef struct settings {
     const char *metric, *view, *diff;
     option_number max, exposure;
+    uint64_t max_memory; /* 0: the default */
     bool json;
 } settings;
 
@@ -36,7 +38,8 @@ static int read_side(side *p, const settings *s)
 {
     facet_error why = {0};
     image raw = {0};
-    if (image_read(p->path, &raw, &why)) return fail_with(FROM_INPUT, p->path, &why);
+    const size_t most = s->max_memory ? s->max_memory : FILE_MEMORY_DEFAULT;
+    if (image_read_within(p->path, most, &raw, &why)) return fail_with(FROM_INPUT, p->path, &why);
     view v = VIEW_STANDARD;
     double exposure = 0;
     if (raw.type == PIXEL_F32) {
@@ -189,6 +192,8 @@ static const option options[] = {
     {"view", 0, OPTION_CHOICE, offsetof(settings, view), NULL,
      "psnr and flip: how EXR and HDR pictures are shown (default standard)", 0, 0, "standard|filmic|agx"},
     {"diff", 0, OPTION_TEXT, offsetof(settings, diff), "FILE.png", "write a picture of the differences", 0, 0, NULL},
+    {"max-memory", 0, OPTION_BYTES, offsetof(settings, max_memory), "SIZE",
+     "refuse a picture that takes more memory to read, such as 512M (default 8G)", 0, 0, NULL},
     {"json", 0, OPTION_FLAG, offsetof(settings, json), NULL, "print one JSON object instead of a table", 0, 0, NULL},
 };
 

@@ -10,11 +10,13 @@
 #include "cli/render_job.h"
 #include "cli/report.h"
 #include "io/checkpoint.h"
+#include "io/file.h"
 #include "io/gltf.h"
 #include "io/image_file.h"
 
 typedef struct settings {
-    bool json;
+    bool json, allow_outside;
+    uint64_t max_memory; /* 0: the default */
 } settings;
 
 /* ---- Pictures ---------------------------------------------------------------------------------- */
@@ -201,14 +203,15 @@ static void start_json(json_writer *j, const char *path)
     json_put_text(j, "file", path);
 }
 
-static int tell_scene(const char *path, bool json)
+static int tell_scene(const char *path, const settings *o)
 {
     facet_error why = {0};
     scene *s = NULL;
     warning_list warnings = {0};
     warning_source source = {&warnings, path};
-    int status = gltf_read(path, keep_gltf_warning, &source, &s, &why) ? fail_with(FROM_INPUT, path, &why) : 0;
-    if (!status && json) {
+    const gltf_options options = {keep_gltf_warning, &source, o->allow_outside, o->max_memory};
+    int status = gltf_read_with(path, &options, &s, &why) ? fail_with(FROM_INPUT, path, &why) : 0;
+    if (!status && o->json) {
         json_writer j;
         start_json(&j, path);
         write_scene(&j, s, &warnings);
@@ -221,12 +224,13 @@ static int tell_scene(const char *path, bool json)
     return finish_stdout(status);
 }
 
-static int tell_picture(const char *path, bool json)
+static int tell_picture(const char *path, const settings *o)
 {
+    const size_t most = o->max_memory ? o->max_memory : FILE_MEMORY_DEFAULT;
     facet_error why = {0};
     image picture = {0};
-    if (image_read(path, &picture, &why)) return fail_with(FROM_INPUT, path, &why);
-    if (json) {
+    if (image_read_within(path, most, &picture, &why)) return fail_with(FROM_INPUT, path, &why);
+    if (o->json) {
         json_writer j;
         start_json(&j, path);
         write_picture(&j, &picture);
@@ -270,11 +274,15 @@ static int run(int argc, char **argv)
     const int status = options_parse(&info_command, argc, argv, &s, &path);
     if (status != PARSE_GO) return status;
     if (has_magic(path, "facetckp")) return tell_checkpoint(path, s.json);
-    return is_scene(path) ? tell_scene(path, s.json) : tell_picture(path, s.json);
+    return is_scene(path) ? tell_scene(path, &s) : tell_picture(path, &s);
 }
 
 static const option options[] = {
     {"json", 0, OPTION_FLAG, offsetof(settings, json), NULL, "print one JSON object", 0, 0, NULL},
+    {"allow-outside", 0, OPTION_FLAG, offsetof(settings, allow_outside), NULL,
+     "let a scene refer to files outside its own folder", 0, 0, NULL},
+    {"max-memory", 0, OPTION_BYTES, offsetof(settings, max_memory), "SIZE",
+     "refuse a scene or a picture that takes more memory to read, such as 512M (default 8G)", 0, 0, NULL},
 };
 
 const command info_command = {

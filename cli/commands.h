@@ -12,6 +12,13 @@ extern "C" {
 extern const command render_command, compare_command, eval_command, sample_command, terms_command, albedo_command,
     materials_command, scenes_command, info_command, verify_command, plot_command, merge_command;
 
+/* All of them. */
+extern const command *const commands[];
+extern const size_t n_commands;
+
+/* The helps of all commands as one JSON object on stdout. */
+void print_help_json(void);
+
 /* Parses the text form of a material that was given as `place` on the command line.  Returns 0, or the exit
  * status of the error that it printed, with a suggestion for a mistyped model. */
 int read_material(const char *text, const char *place, facet_material *m);

@@ -9,16 +9,10 @@
 #include "cli/report.h"
 #include "cli/suggest.h"
 
-static const command *const commands[] = {
-    &render_command, &merge_command, &compare_command, &eval_command,      &sample_command, &terms_command,
-    &albedo_command, &plot_command,  &verify_command,  &materials_command, &scenes_command, &info_command,
-};
-enum { N_COMMANDS = sizeof commands/sizeof *commands };
-
 static void print_usage(FILE *stream)
 {
     fputs("Usage: facet COMMAND [OPTION]... [ARGUMENT]...\n\n", stream);
-    for (size_t i = 0; i < N_COMMANDS; i++) fprintf(stream, "  %-11s%s\n", commands[i]->name, commands[i]->summary);
+    for (size_t i = 0; i < n_commands; i++) fprintf(stream, "  %-11s%s\n", commands[i]->name, commands[i]->summary);
     fputs("\n`facet COMMAND --help` explains a command; `facet render` alone renders the demo scene to facet.png.\n",
           stream);
 }
@@ -32,14 +26,15 @@ static void print_help(void)
            "Directions are unit vectors in the local frame with the normal (0,0,1), pointing away from the surface.\n"
            "Results go to stdout, messages and progress to stderr.\n\n"
            "  facet --version            print the version\n"
-           "  facet help [COMMAND]       print this overview, or the help of a command\n\n%s",
+           "  facet help [COMMAND]       print this overview, or the help of a command\n"
+           "  facet help --json          print all helps as one JSON object\n\n%s",
            exit_status_help);
 }
 
 static const command *find_command(const char *name)
 {
     suggestion near = suggestion_start(name);
-    for (size_t i = 0; i < N_COMMANDS; i++) {
+    for (size_t i = 0; i < n_commands; i++) {
         if (strcmp(commands[i]->name, name) == 0) return commands[i];
         suggestion_offer(&near, commands[i]->name);
     }
@@ -54,6 +49,10 @@ static int help(const char *name)
 {
     if (!name) {
         print_help();
+        return finish_stdout(0);
+    }
+    if (strcmp(name, "--json") == 0) {
+        print_help_json();
         return finish_stdout(0);
     }
     const command *c = find_command(name);

@@ -82,6 +82,21 @@ static int set_integer(const option *o, const char *text, uint64_t *value)
     return bad_value(o, text, right);
 }
 
+static int set_bytes(const option *o, const char *text, uint64_t *value)
+{
+    static const char units[] = "KMGT";
+    char *end;
+    errno = 0;
+    const unsigned long long whole = strtoull(text, &end, 10);
+    const char *unit = *end ? strchr(units, toupper((unsigned char)*end)) : NULL;
+    const int shift = unit ? 10*(int)(unit - units + 1) : 0;
+    if (isdigit((unsigned char)*text) && !errno && !end[unit ? 1 : 0] && whole > 0 && whole <= UINT64_MAX >> shift) {
+        *value = whole << shift;
+        return PARSE_GO;
+    }
+    return bad_value(o, text, "a size in bytes, with K, M, G or T for powers of 1024, such as 512M");
+}
+
 static int set_number(const option *o, const char *text, option_number *number)
 {
     char right[96];
@@ -124,6 +139,7 @@ static int set_value(const option *o, const char *text, void *value)
         return PARSE_GO;
     }
     case OPTION_INTEGER: return set_integer(o, text, value);
+    case OPTION_BYTES: return set_bytes(o, text, value);
     case OPTION_NUMBER: return set_number(o, text, value);
     case OPTION_NUMBERS: return set_numbers(o, text, value);
     case OPTION_SIZE: {
@@ -157,7 +173,7 @@ static int set_value(const option *o, const char *text, void *value)
 
 /* ---- Arguments --------------------------------------------------------------------------------- */
 
-static const option help_option = {"help", 'h', OPTION_FLAG, 0, NULL, "print this help", 0, 0, NULL};
+const option help_option = {"help", 'h', OPTION_FLAG, 0, NULL, "print this help", 0, 0, NULL};
 
 /* The option that argument i spells, or NULL with the message printed; *text is the value attached to it. */
 static const option *find_option(const command *c, const char *argument, const char **text)

@@ -38,6 +38,7 @@ typedef enum option_kind {
     OPTION_TEXT,    /* const char * */
     OPTION_TEXTS,   /* text_list: may be repeated */
     OPTION_INTEGER, /* uint64_t, low to high */
+    OPTION_BYTES,   /* uint64_t: a number of bytes, with K, M, G or T for powers of 1024; at least 1 */
     OPTION_NUMBER,  /* option_number, low to high */
     OPTION_NUMBERS, /* number_list, separated by commas */
     OPTION_SIZE,    /* size_t[2]: WIDTHxHEIGHT */
@@ -74,6 +75,9 @@ enum { PARSE_GO = -1 };
 /* Parses argv[1..argc-1] into the struct at `values`; operands go to operands[max_operands], the missing
  * ones as NULL. */
 int options_parse(const command *c, int argc, char **argv, void *values, const char **operands);
+
+/* `--help`, which every command has. */
+extern const option help_option;
 
 /* The complete help of a command, on stdout. */
 void command_help(const command *c);

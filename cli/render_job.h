@@ -21,7 +21,8 @@ typedef struct render_options {
     const char *checkpoint, *resume, *shard, *events, *mpi;
     const char *aov, *oidn;
     option_number env_scale, time, noise, exposure, checkpoint_interval;
-    bool half, quiet, json, denoise;
+    uint64_t max_memory; /* 0: the default */
+    bool half, quiet, json, denoise, allow_outside;
     const struct layer_choice *layers; /* what --aov and --denoise lead to */
     /* what the command line as a whole leads to */
     const char *scene_path; /* NULL: the demo scene */

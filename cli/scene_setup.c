@@ -10,6 +10,7 @@
 #include "cli/render_job.h"
 #include "cli/report.h"
 #include "cli/suggest.h"
+#include "io/file.h"
 #include "io/gltf.h"
 #include "io/image_file.h"
 #include "render/demo_scene.h"
@@ -89,9 +90,8 @@ static int load(const render_options *o, warning_list *warnings, scene **result)
     facet_error why = {0};
     if (!o->scene_path) return demo_scene_create(result, &why) ? fail_with(FROM_INPUT, "demo", &why) : 0;
     warning_source source = {warnings, o->scene_path};
-    return gltf_read(o->scene_path, keep_gltf_warning, &source, result, &why)
-               ? fail_with(FROM_INPUT, o->scene_path, &why)
-               : 0;
+    const gltf_options options = {keep_gltf_warning, &source, o->allow_outside, o->max_memory};
+    return gltf_read_with(o->scene_path, &options, result, &why) ? fail_with(FROM_INPUT, o->scene_path, &why) : 0;
 }
 
 /* --env FILE or R,G,B, and --env-scale.  What options change enters the scene's hash, too. */
@@ -108,9 +108,10 @@ static int set_environment(const render_options *o, scene *s)
             e->scale[k] = (float)constant[k];
         }
     } else if (o->env) {
+        const size_t most = o->max_memory ? o->max_memory : FILE_MEMORY_DEFAULT;
         facet_error why = {0};
         image raw = {0}, linear = {0};
-        const facet_status read = image_read(o->env, &raw, &why);
+        const facet_status read = image_read_within(o->env, most, &raw, &why);
         if (read == FACET_IO && strchr(o->env, ','))
             return fail(EXIT_USAGE, NULL, "--env", "`%s` is neither a file nor a radiance R,G,B of three numbers",
                         o->env);

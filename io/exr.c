@@ -189,6 +189,7 @@ typedef struct reader {
     const exr_attr_chlist_t *channels;
     size_t bytes_per_pixel; /* of all channels in the file */
     size_t source[4];
+    size_t most; /* byte */
     image picture;
 } reader;
 
@@ -460,6 +461,16 @@ static facet_status read_pixels(reader *r, facet_error *why)
 {
     image *p = &r->picture;
     p->type = PIXEL_F32;
+    const facet_status refused = image_check_size(p, 1, r->most, why);
+    if (refused != FACET_OK) {
+        return refused;
+    }
+    /* The library unpacks a chunk with all its channels at once, and a tile may be the whole picture. */
+    if ((uint64_t)p->width*p->height*r->bytes_per_pixel > r->most) {
+        return facet_error_set(why, FACET_UNSUPPORTED, "channels",
+                               "all %d of its channels take more than %zu MiB; --max-memory SIZE sets another limit",
+                               r->channels->num_channels, r->most >> 20);
+    }
     p->pixels = calloc(p->width*p->height, p->n_channels*sizeof(float));
     if (!p->pixels) {
         return facet_error_set(why, FACET_NO_MEMORY, "", "no memory for %zu x %zu pixels", p->width, p->height);
@@ -473,7 +484,7 @@ static facet_status read_pixels(reader *r, facet_error *why)
     return status;
 }
 
-facet_status exr_decode(const unsigned char *bytes, size_t size, image *picture, facet_error *why)
+facet_status exr_decode(const unsigned char *bytes, size_t size, size_t most, image *picture, facet_error *why)
 {
     if (size < 8 || memcmp(bytes, "\x76\x2f\x31\x01", 4) != 0) {
         return facet_error_set(why, FACET_BAD_FILE, "byte 0", "is not an OpenEXR file");
@@ -481,7 +492,7 @@ facet_status exr_decode(const unsigned char *bytes, size_t size, image *picture,
     if (bytes[5] & DEEP_FLAG) {
         return refuse_deep(why);
     }
-    reader r = {.stream = {.bytes = bytes, .size = size}};
+    reader r = {.stream = {.bytes = bytes, .size = size}, .most = most};
     facet_status status = read_header(&r, why);
     if (status == FACET_OK) {
         status = read_pixels(&r, why);

@@ -100,6 +100,11 @@ static facet_status read_all(int descriptor, unsigned char *bytes, size_t size, 
 
 facet_status file_read(const char *path, unsigned char **bytes, size_t *size, facet_error *why)
 {
+    return file_read_within(path, FILE_SIZE_CAP, bytes, size, why);
+}
+
+facet_status file_read_within(const char *path, size_t most, unsigned char **bytes, size_t *size, facet_error *why)
+{
     if (!path || !bytes || !size) {
         return facet_error_set(why, FACET_BAD_ARGUMENT, "", "file_read needs a path and two results");
     }
@@ -111,9 +116,9 @@ facet_status file_read(const char *path, unsigned char **bytes, size_t *size, fa
     }
     unsigned char *buffer = NULL;
     const size_t n = (size_t)length;
-    if (length > FILE_SIZE_CAP) {
+    if (length > most) {
         status = facet_error_set(why, FACET_UNSUPPORTED, "", "has %llu bytes; files of up to %zu bytes are read",
-                                 (unsigned long long)length, FILE_SIZE_CAP);
+                                 (unsigned long long)length, most);
     } else {
         buffer = malloc(n + 1);
         status = buffer ? read_all(descriptor, buffer, n, why)
@@ -130,13 +135,33 @@ facet_status file_read(const char *path, unsigned char **bytes, size_t *size, fa
     return FACET_OK;
 }
 
+facet_status file_resolve(const char *folder, const char *path, char **resolved, bool *is_inside, facet_error *why)
+{
+    char *real = realpath(path, NULL);
+    if (!real) {
+        return errno == ENOMEM ? facet_error_set(why, FACET_NO_MEMORY, "", "no memory for a path")
+                               : system_error(why, "cannot open", errno);
+    }
+    char *root = realpath(*folder ? folder : ".", NULL);
+    if (!root) {
+        free(real);
+        return system_error(why, "cannot look at the folder", errno);
+    }
+    const size_t length = strcmp(root, "/") == 0 ? 0 : strlen(root);
+    *is_inside = strncmp(real, root, length) == 0 && (real[length] == '/' || !real[length]);
+    *resolved = real;
+    free(root);
+    return FACET_OK;
+}
+
 /* ---- Writing ----------------------------------------------------------------------------------- */
 
 /* Devices, pipes and what hides behind /dev and /proc are written in place: there is nothing to rename
- * onto, and renaming onto /dev/stdout would replace the device's own name. */
+ * onto, and renaming onto /dev/stdout would replace the device's own name.  /dev/shm holds files like any other. */
 static bool is_written_in_place(const char *path, bool exists, mode_t mode)
 {
-    return (exists && !S_ISREG(mode)) || strncmp(path, "/dev/", 5) == 0 || strncmp(path, "/proc/", 6) == 0;
+    const bool is_device = strncmp(path, "/dev/", 5) == 0 && strncmp(path, "/dev/shm/", 9) != 0;
+    return (exists && !S_ISREG(mode)) || is_device || strncmp(path, "/proc/", 6) == 0;
 }
 
 /* Opens a new file beside the target; its name is *temporary, owned by the caller.  -1 and errno on failure. */

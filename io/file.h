@@ -6,6 +6,7 @@
  * SPDX-License-Identifier: MIT */
 #pragma once
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -19,8 +20,19 @@ extern "C" {
 /* Files above this many bytes are refused, with FACET_UNSUPPORTED [byte]. */
 #define FILE_SIZE_CAP ((size_t)2 << 30)
 
+/* What reading a scene or a picture may take in memory, if nothing else is asked for [byte]. */
+#define FILE_MEMORY_DEFAULT ((size_t)8 << 30)
+
 /* The whole file, with one 0 byte after its end that *size does not count.  The caller frees *bytes. */
 facet_status file_read(const char *path, unsigned char **bytes, size_t *size, facet_error *why);
+
+/* The same, of at most `most` bytes in place of FILE_SIZE_CAP. */
+facet_status file_read_within(const char *path, size_t most, unsigned char **bytes, size_t *size, facet_error *why);
+
+/* Where `path` leads to once its symbolic links are followed: *resolved, without links, is the caller's to free, and
+ * *is_inside tells whether that lies in or below the folder ("" is the working directory).  FACET_IO if it does not
+ * exist. */
+facet_status file_resolve(const char *folder, const char *path, char **resolved, bool *is_inside, facet_error *why);
 
 /* A regular file of any size to read from; the caller closes *stream. */
 facet_status file_open(const char *path, FILE **stream, uint64_t *size, facet_error *why);

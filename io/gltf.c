@@ -46,10 +46,24 @@ bool gltf_no_memory(const json_place *place)
     return json_fail(place, FACET_NO_MEMORY, "out of memory");
 }
 
+size_t gltf_memory_left(const gltf *g)
+{
+    return g->most_memory - g->memory;
+}
+
+bool gltf_claim(gltf *g, const json_place *place, size_t count, size_t size)
+{
+    if (size && count > gltf_memory_left(g)/size)
+        return json_fail(place, FACET_UNSUPPORTED,
+                         "brings the scene above %zu MiB of memory; --max-memory SIZE sets another limit",
+                         g->most_memory >> 20);
+    g->memory += count*size;
+    return true;
+}
+
 bool gltf_take_input(gltf *g, const json_place *place, const unsigned char *bytes, size_t size)
 {
-    if (size > GLTF_INPUT_CAP - g->input_size)
-        return json_fail(place, FACET_UNSUPPORTED, "brings the scene's files above %zu GiB", GLTF_INPUT_CAP >> 30);
+    if (!gltf_claim(g, place, size, 1)) return false;
     g->input_size += size;
     scene_hash_bytes(g->scene, bytes, size);
     return true;
@@ -58,10 +72,12 @@ bool gltf_take_input(gltf *g, const json_place *place, const unsigned char *byte
 bool gltf_charge(gltf *g, const json_place *place, size_t count, size_t size)
 {
     const size_t cap = GLTF_GEOMETRY_FLOOR + GLTF_GEOMETRY_FACTOR*g->input_size;
-    if (size && count > (cap - g->geometry_size)/size)
+    if (!g->has_own_cap && size && count > (cap - g->geometry_size)/size)
         return json_fail(place, FACET_UNSUPPORTED,
-                         "brings the geometry above %zu MiB (%zu MiB plus %zu times the %zu bytes read)", cap >> 20,
-                         GLTF_GEOMETRY_FLOOR >> 20, GLTF_GEOMETRY_FACTOR, g->input_size);
+                         "brings the geometry above %zu MiB (%zu MiB plus %zu times the %zu bytes read); "
+                         "--max-memory SIZE sets another limit",
+                         cap >> 20, GLTF_GEOMETRY_FLOOR >> 20, GLTF_GEOMETRY_FACTOR, g->input_size);
+    if (!gltf_claim(g, place, count, size)) return false;
     g->geometry_size += count*size;
     return true;
 }
@@ -175,9 +191,10 @@ static bool open_file(gltf *g)
     unsigned char *bytes = NULL;
     size_t size = 0;
     facet_error problem = {0};
-    const facet_status status = file_read(g->path, &bytes, &size, &problem);
+    const facet_status status = file_read_within(g->path, g->most_memory, &bytes, &size, &problem);
     if (status) {
-        facet_error_set(&g->error, status, problem.place, "%s", problem.text);
+        facet_error_set(&g->error, status, problem.place, "%s%s", problem.text,
+                        status == FACET_UNSUPPORTED ? "; --max-memory SIZE sets another limit" : "");
         return false;
     }
     g->file = bytes;
@@ -191,6 +208,7 @@ static bool open_file(gltf *g)
                          GLTF_JSON_CAP >> 20);
     if (image_is_known(bytes, size))
         return json_fail(&g->root, FACET_BAD_FILE, "is a picture, not a scene; give a .gltf or .glb");
+    if (!gltf_claim(g, &g->root, json_memory(json, json_size), 1)) return false;
     if (!json_parse(json, json_size, &g->root, &g->error)) return false;
     return json_want_object(&g->root);
 }
@@ -254,11 +272,19 @@ static void close_file(gltf *g)
 
 facet_status gltf_read(const char *path, gltf_warning *warning, void *user, scene **result, facet_error *why)
 {
+    return gltf_read_with(path, &(gltf_options){.warning = warning, .user = user}, result, why);
+}
+
+facet_status gltf_read_with(const char *path, const gltf_options *options, scene **result, facet_error *why)
+{
     const char *slash = strrchr(path, '/');
     gltf g = {.path = path,
               .folder_length = slash ? (size_t)(slash - path) + 1 : 0,
-              .warning = warning,
-              .user = user,
+              .warning = options->warning,
+              .user = options->user,
+              .allows_outside = options->allows_outside,
+              .has_own_cap = options->most_memory != 0,
+              .most_memory = options->most_memory ? options->most_memory : FILE_MEMORY_DEFAULT,
               .scene = scene_create()};
     if (!g.scene) return facet_error_set(why, FACET_NO_MEMORY, "", "out of memory");
     const bool is_read = open_file(&g) && check_version(&g) && check_extensions(&g) && find_arrays(&g) &&

@@ -22,14 +22,10 @@
 
 /* JSON text [byte]. */
 #define GLTF_JSON_CAP ((size_t)256 << 20)
-/* All files and data URIs of one scene together [byte]. */
-#define GLTF_INPUT_CAP ((size_t)8 << 30)
-/* Geometry may take this much, plus so many times the bytes read: accessors can be shared or all zeros,
- * so that a small file can ask for much. */
+/* Unless the user says how much memory there is, geometry may take this much, plus so many times the bytes read:
+ * accessors can be shared or all zeros, so that a small file can ask for much. */
 #define GLTF_GEOMETRY_FLOOR ((size_t)256 << 20)
 #define GLTF_GEOMETRY_FACTOR ((size_t)64)
-/* Decoded pictures together [byte]. */
-#define GLTF_IMAGE_CAP ((size_t)4 << 30)
 /* Mesh instances, spheres and lights, each. */
 #define GLTF_INSTANCE_CAP ((size_t)1 << 22)
 /* Cameras: each new name is compared with all. */
@@ -110,13 +106,15 @@ typedef struct gltf {
     gltf_warning *warning;
     void *user;
     size_t n_warnings;
+    bool allows_outside, has_own_cap; /* has_own_cap: the user chose most_memory */
+    size_t most_memory;
     const char *path;
     size_t folder_length; /* path[0..folder_length) is the folder with its slash */
 
     unsigned char *file;      /* the main file */
     const unsigned char *bin; /* the GLB's binary chunk, or NULL */
     size_t bin_size;
-    size_t input_size, geometry_size, image_size, n_triangles; /* running totals against the caps */
+    size_t memory, input_size, geometry_size, n_triangles; /* running totals against the caps */
 
     json_place root, buffers, views, accessors, images, samplers, textures, materials, meshes, nodes, skins, cameras,
         scenes;
@@ -150,7 +148,11 @@ void gltf_warn(gltf *g, const json_place *place, const char *format, ...) __attr
 /* Reads object.extensions.NAME; false if it is there and not an object.  e stays where it is while used. */
 bool gltf_read_extension(const json_place *object, const char *name, gltf_extension *e);
 bool gltf_no_memory(const json_place *place);
-/* Folds bytes into the scene's hash and counts them against GLTF_INPUT_CAP. */
+/* Counts count*size bytes against most_memory, before they are taken. */
+bool gltf_claim(gltf *g, const json_place *place, size_t count, size_t size);
+/* What is left of most_memory. */
+size_t gltf_memory_left(const gltf *g);
+/* Folds the bytes of a file into the scene's hash and counts them. */
 bool gltf_take_input(gltf *g, const json_place *place, const unsigned char *bytes, size_t size);
 /* Counts work on geometry, in bytes, against its cap. */
 bool gltf_charge(gltf *g, const json_place *place, size_t count, size_t size);

@@ -7,12 +7,6 @@
 #include "io/gltf_internal.h"
 #include "io/image_file.h"
 
-static size_t image_size(const image *picture)
-{
-    const size_t channel = picture->type == PIXEL_U8 ? 1 : picture->type == PIXEL_U16 ? 2 : 4;
-    return picture->width*picture->height*picture->n_channels*channel;
-}
-
 /* The encoded bytes of an image, from its uri or its buffer view; *owned is to be freed. */
 static bool image_bytes(gltf *g, const json_place *place, const unsigned char **bytes, size_t *size,
                         unsigned char **owned)
@@ -43,19 +37,13 @@ static bool use_image(gltf *g, size_t number, size_t *index)
     if (!image_bytes(g, &place, &bytes, &size, &owned)) return false;
     image picture = {0};
     facet_error problem = {0};
-    const facet_status status = image_decode(bytes, size, &picture, &problem);
+    const facet_status status = image_decode_within(bytes, size, gltf_memory_left(g), &picture, &problem);
     free(owned);
     if (status) return json_fail(&place, status, "%s%s%s", problem.place, problem.place[0] ? ": " : "", problem.text);
-    bool is_kept = true;
-    if (image_size(&picture) > GLTF_IMAGE_CAP - g->image_size)
-        is_kept = json_fail(&place, FACET_UNSUPPORTED, "brings the decoded pictures above %zu GiB",
-                            GLTF_IMAGE_CAP >> 30);
-    else if (scene_add_image(g->scene, &picture, index)) is_kept = gltf_no_memory(&place);
-    if (!is_kept) {
+    if (!gltf_claim(g, &place, image_byte_count(&picture), 1) || scene_add_image(g->scene, &picture, index)) {
         image_destroy(&picture);
-        return false;
+        return gltf_no_memory(&place);
     }
-    g->image_size += image_size(&picture);
     g->image_index[number] = *index;
     return true;
 }

@@ -292,7 +292,7 @@ static void store_line(const header *h, size_t i, unsigned char (*line)[4], size
     }
 }
 
-facet_status hdr_decode(const unsigned char *bytes, size_t size, image *picture, facet_error *why)
+facet_status hdr_decode(const unsigned char *bytes, size_t size, size_t most, image *picture, facet_error *why)
 {
     cursor c = {bytes, size, 0};
     header h;
@@ -302,6 +302,11 @@ facet_status hdr_decode(const unsigned char *bytes, size_t size, image *picture,
     }
     const size_t n_lines = h.axes[0].length, n = h.axes[1].length;
     const size_t width = h.axes[0].is_x ? n_lines : n;
+    image decoded = {.width = width, .height = n_lines*n/width, .n_channels = 3, .type = PIXEL_F32};
+    status = image_check_size(&decoded, 1, most, why);
+    if (status != FACET_OK) {
+        return status;
+    }
     float(*pixels)[3] = malloc(n_lines*n*sizeof *pixels);
     unsigned char(*line)[4] = malloc(n*sizeof *line);
     if (!pixels || !line) {
@@ -318,7 +323,7 @@ facet_status hdr_decode(const unsigned char *bytes, size_t size, image *picture,
         free(pixels);
         return status;
     }
-    *picture = (image){
-        .width = width, .height = n_lines*n/width, .n_channels = 3, .type = PIXEL_F32, .pixels = pixels};
+    decoded.pixels = pixels;
+    *picture = decoded;
     return FACET_OK;
 }

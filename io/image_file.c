@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "io/file.h"
 
-typedef facet_status decoder(const unsigned char *bytes, size_t size, image *picture, facet_error *why);
+typedef facet_status decoder(const unsigned char *bytes, size_t size, size_t most, image *picture, facet_error *why);
 
 /* A kind of file: `length` bytes of `magic` at `offset`.  Without a decoder it is refused by name. */
 typedef struct kind {
@@ -53,7 +53,33 @@ static bool is_kind(const kind *k, const unsigned char *bytes, size_t size)
     return size >= k->offset + k->length && memcmp(bytes + k->offset, k->magic, k->length) == 0;
 }
 
+size_t image_byte_count(const image *picture)
+{
+    const size_t channel = picture->type == PIXEL_U8 ? 1 : picture->type == PIXEL_U16 ? 2 : 4;
+    return picture->width*picture->height*picture->n_channels*channel;
+}
+
+facet_status image_check_size(const image *picture, size_t copies, size_t most, facet_error *why)
+{
+    if (picture->width > IMAGE_PIXEL_CAP/picture->height)
+        return facet_error_set(why, FACET_UNSUPPORTED, "", "has %zu x %zu pixels; at most 2^28 are read",
+                               picture->width, picture->height);
+    const size_t size = copies*image_byte_count(picture);
+    if (size > most)
+        return facet_error_set(
+            why, FACET_UNSUPPORTED, "",
+            "its %zu x %zu pixels take %zu bytes, and %zu are allowed; --max-memory SIZE sets another "
+            "limit",
+            picture->width, picture->height, size, most);
+    return FACET_OK;
+}
+
 facet_status image_decode(const unsigned char *bytes, size_t size, image *picture, facet_error *why)
+{
+    return image_decode_within(bytes, size, FILE_MEMORY_DEFAULT, picture, why);
+}
+
+facet_status image_decode_within(const unsigned char *bytes, size_t size, size_t most, image *picture, facet_error *why)
 {
     if (!picture || (!bytes && size > 0)) {
         return facet_error_set(why, FACET_BAD_ARGUMENT, "", "image_decode needs bytes and a result");
@@ -63,7 +89,7 @@ facet_status image_decode(const unsigned char *bytes, size_t size, image *pictur
     }
     for (size_t i = 0; i < sizeof KINDS/sizeof KINDS[0]; i++) {
         if (is_kind(&KINDS[i], bytes, size)) {
-            return KINDS[i].decode ? KINDS[i].decode(bytes, size, picture, why)
+            return KINDS[i].decode ? KINDS[i].decode(bytes, size, most, picture, why)
                                    : facet_error_set(why, FACET_UNSUPPORTED, "",
                                                      "%s pictures are not read; convert it to PNG, JPEG, Radiance "
                                                      "HDR or OpenEXR",
@@ -83,11 +109,16 @@ bool image_is_known(const unsigned char *bytes, size_t size)
 
 facet_status image_read(const char *path, image *picture, facet_error *why)
 {
+    return image_read_within(path, FILE_MEMORY_DEFAULT, picture, why);
+}
+
+facet_status image_read_within(const char *path, size_t most, image *picture, facet_error *why)
+{
     unsigned char *bytes = NULL;
     size_t size = 0;
     facet_status status = file_read(path, &bytes, &size, why);
     if (status == FACET_OK) {
-        status = image_decode(bytes, size, picture, why);
+        status = image_decode_within(bytes, size, most, picture, why);
         free(bytes);
     }
     return status;

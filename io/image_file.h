@@ -21,14 +21,26 @@ facet_status image_read(const char *path, image *picture, facet_error *why);
 /* Reads a picture that lies in memory (a buffer view, a data URI). */
 facet_status image_decode(const unsigned char *bytes, size_t size, image *picture, facet_error *why);
 
+/* The same; one that would take more than `most` bytes when decoded is refused before memory is taken, with
+ * FACET_UNSUPPORTED.  The two above allow FILE_MEMORY_DEFAULT. */
+facet_status image_read_within(const char *path, size_t most, image *picture, facet_error *why);
+facet_status image_decode_within(const unsigned char *bytes, size_t size, size_t most, image *picture,
+                                 facet_error *why);
+
+/* Bytes of the pixels. */
+size_t image_byte_count(const image *picture);
+/* For the decoders: refuses a picture of more than IMAGE_PIXEL_CAP pixels or `most` bytes.  `copies`: how many times
+ * the pixels lie in memory while they are decoded. */
+facet_status image_check_size(const image *picture, size_t copies, size_t most, facet_error *why);
+
 /* Whether the bytes begin as a picture of some kind does, read here or not. */
 bool image_is_known(const unsigned char *bytes, size_t size);
 
 /* The decoders that image_decode chooses among by content. */
-facet_status hdr_decode(const unsigned char *bytes, size_t size, image *picture, facet_error *why);
-facet_status exr_decode(const unsigned char *bytes, size_t size, image *picture, facet_error *why);
-facet_status png_decode(const unsigned char *bytes, size_t size, image *picture, facet_error *why);
-facet_status jpeg_decode(const unsigned char *bytes, size_t size, image *picture, facet_error *why);
+facet_status hdr_decode(const unsigned char *bytes, size_t size, size_t most, image *picture, facet_error *why);
+facet_status exr_decode(const unsigned char *bytes, size_t size, size_t most, image *picture, facet_error *why);
+facet_status png_decode(const unsigned char *bytes, size_t size, size_t most, image *picture, facet_error *why);
+facet_status jpeg_decode(const unsigned char *bytes, size_t size, size_t most, image *picture, facet_error *why);
 
 /* Text kept with a picture: facet writes its provenance (version, command line, seed, ...). */
 typedef struct image_text {

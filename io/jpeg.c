@@ -28,6 +28,7 @@ typedef struct job {
     struct jpeg_progress_mgr progress;
     struct jpeg_decompress_struct jpeg;
     jmp_buf jump;
+    size_t most; /* byte */
     image picture;
     facet_status status;
     char message[JMSG_LENGTH_MAX];
@@ -92,9 +93,6 @@ static void prepare(job *j, size_t size)
     if (jpeg->jpeg_color_space == JCS_UNKNOWN) {
         fail(j, FACET_UNSUPPORTED, "colours other than grey, YCbCr and RGB are not read");
     }
-    if (width > IMAGE_PIXEL_CAP/height) {
-        fail(j, FACET_UNSUPPORTED, "the picture has more pixels than are read (2^28)");
-    }
     if (width*height/MAX_PIXELS_PER_BYTE > size) {
         fail(j, FACET_BAD_FILE, "the file is truncated: it is too short for its width and height");
     }
@@ -102,6 +100,12 @@ static void prepare(job *j, size_t size)
     jpeg->out_color_space = is_grey ? JCS_GRAYSCALE : JCS_RGB;
     jpeg->dct_method = JDCT_ISLOW;
     j->picture = (image){.width = width, .height = height, .n_channels = is_grey ? 1 : 3, .type = PIXEL_U8};
+    /* All coefficients of a picture in several scans, 16 bits each, lie in memory, too. */
+    const size_t copies = jpeg_has_multiple_scans(jpeg) ? 3 : 1;
+    facet_error refusal;
+    if (image_check_size(&j->picture, copies, j->most, &refusal) != FACET_OK) {
+        fail(j, FACET_UNSUPPORTED, refusal.text);
+    }
     j->picture.pixels = malloc(width*height*j->picture.n_channels);
     if (!j->picture.pixels) {
         fail(j, FACET_NO_MEMORY, "no memory for the pixels");
@@ -128,7 +132,7 @@ static void read_picture(job *j, const unsigned char *bytes, size_t size)
     jpeg_finish_decompress(&j->jpeg);
 }
 
-facet_status jpeg_decode(const unsigned char *bytes, size_t size, image *picture, facet_error *why)
+facet_status jpeg_decode(const unsigned char *bytes, size_t size, size_t most, image *picture, facet_error *why)
 {
     if (size == 0) {
         return facet_error_set(why, FACET_BAD_FILE, "", "is empty; a JPEG picture was expected");
@@ -137,6 +141,7 @@ facet_status jpeg_decode(const unsigned char *bytes, size_t size, image *picture
     if (!j) {
         return facet_error_set(why, FACET_NO_MEMORY, "", "no memory to read a JPEG file");
     }
+    j->most = most;
     j->jpeg.err = jpeg_std_error(&j->errors);
     j->errors.error_exit = on_error;
     j->errors.emit_message = on_message;

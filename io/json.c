@@ -21,6 +21,29 @@
 /* Whole numbers up to here are exact in a double. */
 #define WHOLE_NUMBER_CAP 9007199254740991.0
 
+/* Upper bounds of what jansson takes for each value, with its place in an array that doubles; for each pair of an
+ * object besides, with the table that doubles; and for each array and object, with the first element, which no comma
+ * announces. */
+enum { VALUE_MEMORY = 104, PAIR_MEMORY = 96, ARRAY_MEMORY = 256, OBJECT_MEMORY = 352 };
+
+size_t json_memory(const unsigned char *bytes, size_t size)
+{
+    size_t sum = size; /* the texts */
+    bool is_in_string = false;
+    for (size_t i = 0; i < size; i++) {
+        const unsigned char c = bytes[i];
+        if (c == '"') is_in_string = !is_in_string;
+        else if (is_in_string) i += c == '\\';
+        else
+            sum += c == ','   ? VALUE_MEMORY
+                   : c == ':' ? PAIR_MEMORY
+                   : c == '[' ? ARRAY_MEMORY
+                   : c == '{' ? OBJECT_MEMORY
+                              : 0;
+    }
+    return sum;
+}
+
 bool json_parse(const unsigned char *bytes, size_t size, json_place *root, facet_error *why)
 {
     *root = (json_place){.why = why};

@@ -29,6 +29,9 @@ typedef struct json_place {
     facet_error *why;
 } json_place;
 
+/* At least what json_parse takes in memory for a document [byte], told from its brackets and commas alone. */
+size_t json_memory(const unsigned char *bytes, size_t size);
+
 /* Strict RFC 8259: UTF-8, no byte order mark, no comments, no repeated keys, nothing after the document,
  * numbers within double range.  *root is the caller's to give to json_destroy; why is borrowed by all
  * places and must not be NULL. */

@@ -49,26 +49,36 @@ static facet_status check(const unsigned char *bytes, size_t size, facet_error *
     return FACET_OK;
 }
 
-facet_status merl_read(const char *path, merl *m, facet_error *why)
+facet_status merl_decode(const unsigned char *bytes, size_t size, merl *m, facet_error *why)
 {
     static const double scale[3] = {1.0/1500, 1.15/1500, 1.66/1500};
+    m->values = NULL;
+    const facet_status status = check(bytes, size, why);
+    if (status) return status;
+    m->values = malloc((size_t)3*COUNT*sizeof *m->values);
+    if (!m->values) return facet_error_set(why, FACET_NO_MEMORY, "", "no memory for 35 MB of measurements");
+    for (size_t i = 0; i < (size_t)3*COUNT; i++) {
+        const double x = number_at(bytes + HEADER + 8*i);
+        if (!isfinite(x)) {
+            char place[32];
+            snprintf(place, sizeof place, "byte %zu", HEADER + 8*i);
+            merl_free(m);
+            return facet_error_set(why, FACET_BAD_FILE, place, "the number is not finite");
+        }
+        m->values[i] = fmax(x, 0)*scale[i/COUNT];
+    }
+    return FACET_OK;
+}
+
+facet_status merl_read(const char *path, merl *m, facet_error *why)
+{
     unsigned char *bytes;
     size_t size;
     m->values = NULL;
     facet_status status = file_read(path, &bytes, &size, why);
     if (status) return status;
-    status = check(bytes, size, why);
-    if (!status && !(m->values = malloc((size_t)3*COUNT*sizeof *m->values)))
-        status = facet_error_set(why, FACET_NO_MEMORY, "", "no memory for 35 MB of measurements");
-    for (size_t i = 0; i < (size_t)3*COUNT && !status; i++) {
-        const double x = number_at(bytes + HEADER + 8*i);
-        char place[32];
-        snprintf(place, sizeof place, "byte %zu", HEADER + 8*i);
-        if (!isfinite(x)) status = facet_error_set(why, FACET_BAD_FILE, place, "the number is not finite");
-        m->values[i] = fmax(x, 0)*scale[i/COUNT];
-    }
+    status = merl_decode(bytes, size, m, why);
     free(bytes);
-    if (status) merl_free(m);
     return status;
 }
 

@@ -4,6 +4,8 @@
  * SPDX-License-Identifier: MIT */
 #pragma once
 
+#include <stddef.h>
+
 #include "facet/facet.h"
 
 #ifdef __cplusplus
@@ -18,6 +20,8 @@ typedef struct merl {
 /* Reads and checks a file: its three sizes, its length, and that all numbers are finite.  Negative ones, which the
  * database has where nothing was measured, become 0.  merl_free what it gives. */
 facet_status merl_read(const char *path, merl *m, facet_error *why);
+/* The same of a file that lies in memory. */
+facet_status merl_decode(const unsigned char *bytes, size_t size, merl *m, facet_error *why);
 void merl_free(merl *m);
 
 /* f |cos theta_i|, linear between the measured angles; 0 below the horizon.  Thread safe. */

@@ -30,13 +30,14 @@ typedef struct job {
     png_structp png;
     png_infop info;
     const unsigned char *bytes; /* reading */
-    size_t size, at;
+    size_t size, at, most;
     FILE *stream; /* writing */
     unsigned char *pixels;
     png_bytepp rows;
     png_textp texts;
     image picture;
-    bool is_out_of_memory, is_too_large, is_io_error;
+    bool is_out_of_memory, is_io_error;
+    facet_error refusal; /* of a size */
     char message[160];
 } job;
 
@@ -106,10 +107,6 @@ static void prepare_read(job *j)
     png_read_info(j->png, j->info);
     const size_t width = png_get_image_width(j->png, j->info);
     const size_t height = png_get_image_height(j->png, j->info);
-    if (width > IMAGE_PIXEL_CAP/height) {
-        j->is_too_large = true;
-        png_error(j->png, "the picture has more pixels than are read (2^28)");
-    }
     if (png_get_rowbytes(j->png, j->info) > (j->size*DEFLATE_RATIO)/height) {
         png_error(j->png, "the file is truncated: it is too short for its width and height");
     }
@@ -123,6 +120,9 @@ static void prepare_read(job *j)
                          .height = height,
                          .n_channels = png_get_channels(j->png, j->info),
                          .type = png_get_bit_depth(j->png, j->info) == 16 ? PIXEL_U16 : PIXEL_U8};
+    if (image_check_size(&j->picture, 1, j->most, &j->refusal) != FACET_OK) {
+        png_error(j->png, "the picture is too large");
+    }
 }
 
 /* false if libpng jumped out. */
@@ -148,7 +148,7 @@ static bool read_picture(job *j)
     return true;
 }
 
-facet_status png_decode(const unsigned char *bytes, size_t size, image *picture, facet_error *why)
+facet_status png_decode(const unsigned char *bytes, size_t size, size_t most, image *picture, facet_error *why)
 {
     char place[32];
     size_t at;
@@ -157,7 +157,7 @@ facet_status png_decode(const unsigned char *bytes, size_t size, image *picture,
         snprintf(place, sizeof place, "byte %zu", at);
         return facet_error_set(why, FACET_BAD_FILE, place, "PNG: %s", damage);
     }
-    job j = {.bytes = bytes, .size = size};
+    job j = {.bytes = bytes, .size = size, .most = most};
     j.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &j, on_error, on_warning);
     j.info = j.png ? png_create_info_struct(j.png) : NULL;
     facet_status status = FACET_OK;
@@ -165,8 +165,11 @@ facet_status png_decode(const unsigned char *bytes, size_t size, image *picture,
         status = facet_error_set(why, FACET_NO_MEMORY, "", "no memory to read a PNG file");
     } else if (!read_picture(&j)) {
         snprintf(place, sizeof place, "byte %zu", j.at);
-        const facet_status refusal = j.is_too_large ? FACET_UNSUPPORTED : FACET_BAD_FILE;
-        status = facet_error_set(why, j.is_out_of_memory ? FACET_NO_MEMORY : refusal, place, "PNG: %s", j.message);
+        if (j.refusal.status != FACET_OK)
+            status = facet_error_set(why, j.refusal.status, "", "PNG: %s", j.refusal.text);
+        else
+            status = facet_error_set(why, j.is_out_of_memory ? FACET_NO_MEMORY : FACET_BAD_FILE, place, "PNG: %s",
+                                     j.message);
     }
     png_destroy_read_struct(&j.png, &j.info, NULL);
     free(j.rows);

@@ -1,13 +1,13 @@
 #!/bin/sh
-# Installs the packages of tools/packages.txt that are missing: the group `build`, or all with the argument `check`.
+# Installs the packages of tools/packages.txt that are missing: the group `build`, and with an argument that one, too.
 # When nothing is missing it needs neither network nor root.
 #
 # SPDX-License-Identifier: MIT
 set -eu
 
 list=$(dirname "$0")/packages.txt
-wanted=$(awk -v all="${1:-build}" '
-    /^\[/ { take = ($1 == "[build]" || all == "check"); next }
+wanted=$(awk -v group="${1:-build}" '
+    /^\[/ { take = ($1 == "[build]" || $1 == "[" group "]"); next }
     { sub(/#.*/, "") }
     take && NF { print $1 }' "$list")
 

@@ -89,17 +89,21 @@ static void a_checkpoint_that_cannot_be_written_leaves_the_one_before(void **sta
     assert_same_pixels(folder, "whole.exr", "y.exr");
 }
 
+static void need_mounts(void)
+{
+    program_run run = shell("mkdir -p disk && unshare -rm mount -t tmpfs -o size=64k tmpfs disk");
+    const bool can_mount = run.status == 0;
+    program_run_free(&run);
+    if (can_mount) return;
+    print_message("skipped: no mount namespaces here\n");
+    skip();
+}
+
 /* A file system of 64 KiB, in a mount namespace of the test's own. */
 static void a_full_disk_costs_the_checkpoint_that_did_not_fit(void **state)
 {
     (void)state;
-    program_run run = shell("mkdir -p disk && unshare -rm mount -t tmpfs -o size=64k tmpfs disk");
-    const bool can_mount = run.status == 0;
-    program_run_free(&run);
-    if (!can_mount) {
-        print_message("skipped: no mount namespaces here\n");
-        skip();
-    }
+    need_mounts();
     expect("unshare -rm sh -ec 'mount -t tmpfs -o size=64k tmpfs disk; "
            "head -c 60000 /dev/zero > disk/ballast; "
            "'\"$r\"' --spp 4 -o disk/a.exr --checkpoint disk/a.ckpt'",
@@ -111,6 +115,33 @@ static void a_full_disk_costs_the_checkpoint_that_did_not_fit(void **state)
            "status=0; '\"$r\"' --spp 2 --shard 1/1 --checkpoint disk/a.ckpt --resume disk/a.ckpt || status=$?; "
            "cmp disk/a.ckpt before; test \"$(ls disk)\" = a.ckpt; exit $status'",
            4, "facet: error: disk/a.ckpt: cannot write: no space left on the device");
+}
+
+/* Of two pictures the one that fits is written, and nothing is left of the other. */
+static void a_full_disk_costs_the_picture_that_did_not_fit(void **state)
+{
+    (void)state;
+    need_mounts();
+    expect("unshare -rm sh -ec 'mount -t tmpfs -o size=64k tmpfs disk; "
+           "head -c 65536 /dev/zero > disk/ballast; status=0; "
+           "'\"$r\"' --spp 1 -o disk/a.exr -o fits.png || status=$?; test \"$(ls disk)\" = ballast; exit $status'",
+           4, "facet: error: disk/a.exr: cannot write: no space left on the device");
+    expect("$facet info fits.png", 0, "");
+}
+
+static void a_read_only_disk_is_told_before_rendering(void **state)
+{
+    (void)state;
+    need_mounts();
+    static const char *const outputs[] = {"-o disk/a.png", "-o b.png --checkpoint disk/a.ckpt",
+                                          "-o b.png --events disk/e"};
+    for (size_t i = 0; i < sizeof outputs/sizeof *outputs; i++) {
+        char line[256];
+        snprintf(line, sizeof line,
+                 "unshare -rm sh -ec 'mount -t tmpfs -o ro tmpfs disk; '\"$r\"' --spp 1 %s; exit $?'", outputs[i]);
+        expect_line(line, 4, "Read-only file system");
+        expect("! test -e b.png", 0, "");
+    }
 }
 
 static void read_only_and_vanished_folders_are_told(void **state)
@@ -235,6 +266,8 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_checkpoint_that_cannot_be_written_leaves_the_one_before),
         cmocka_unit_test(a_full_disk_costs_the_checkpoint_that_did_not_fit),
+        cmocka_unit_test(a_full_disk_costs_the_picture_that_did_not_fit),
+        cmocka_unit_test(a_read_only_disk_is_told_before_rendering),
         cmocka_unit_test(read_only_and_vanished_folders_are_told),
         cmocka_unit_test(damaged_and_vanished_inputs_are_told),
         cmocka_unit_test(a_scene_whose_files_change_is_another_scene),

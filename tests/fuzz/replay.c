@@ -1,9 +1,10 @@
 /* replay.c: runs a fuzzing program's corpus as an ordinary test, without libFuzzer.
  *
- *     replay_NAME FOLDER
+ *     replay_NAME FOLDER [CHANGES]
  *
- * Each file is given as it is, cut short at 64 places, and with one byte changed at 256 places; so is an empty
- * input.  The places come from a fixed seed: a failure repeats.  Any crash, sanitizer report or hang is the failure.
+ * Each file is given as it is, cut short at 64 places, and with one byte changed at 256 places (CHANGES, and a
+ * quarter of that); so is an empty input.  The places come from a fixed seed: a failure repeats.  Any crash, hang or
+ * report of a sanitizer is the failure.
  * SPDX-License-Identifier: MIT */
 #include <dirent.h>
 #include <stdint.h>
@@ -13,7 +14,9 @@
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
-enum { N_CUTS = 64, N_CHANGES = 256, LARGEST_CHANGED = 1 << 16 };
+enum { LARGEST_CHANGED = 1 << 16 };
+
+static int n_changes = 256;
 
 static uint64_t next_random(uint64_t *state)
 {
@@ -36,8 +39,8 @@ static void give_variants(uint8_t *data, size_t size)
     uint64_t random = 1;
     give(data, size);
     if (size == 0 || size > LARGEST_CHANGED) return; /* a large file takes too long 320 times */
-    for (int i = 0; i < N_CUTS; i++) give(data, next_random(&random)%size);
-    for (int i = 0; i < N_CHANGES; i++) {
+    for (int i = 0; i < n_changes/4; i++) give(data, next_random(&random)%size);
+    for (int i = 0; i < n_changes; i++) {
         const size_t place = next_random(&random)%size;
         const uint8_t kept = data[place];
         data[place] = (uint8_t)next_random(&random);
@@ -70,11 +73,12 @@ static int give_file(const char *path)
 int main(int argc, char **argv)
 {
     int n_files = 0;
-    DIR *folder = argc == 2 ? opendir(argv[1]) : NULL;
+    DIR *folder = argc >= 2 ? opendir(argv[1]) : NULL;
     if (!folder) {
         fprintf(stderr, "replay: cannot open the folder of inputs %s\n", argc > 1 ? argv[1] : "");
         return 1;
     }
+    if (argc > 2) n_changes = atoi(argv[2]);
     give(NULL, 0);
     for (struct dirent *entry; (entry = readdir(folder));) {
         char path[4096];

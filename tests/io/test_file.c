@@ -196,6 +196,65 @@ static void devices_are_written_in_place(void **state)
     assert_true(S_ISCHR(info.st_mode));
 }
 
+/* /dev/shm is a folder like any other, though its name is that of a device's. */
+static void a_file_in_shared_memory_is_created_and_replaced(void **state)
+{
+    (void)state;
+    if (access("/dev/shm", W_OK) != 0) {
+        print_message("/dev/shm is missing\n");
+        skip();
+    }
+    char path[64];
+    snprintf(path, sizeof path, "/dev/shm/facet-test-%ld", (long)getpid());
+    for (int i = 0; i < 2; i++) {
+        file_writer w;
+        facet_error why = {0};
+        assert_int_equal(file_writer_open(&w, path, &why), FACET_OK);
+        assert_non_null(w.temporary);
+        fputs(i ? "second" : "first", w.stream);
+        assert_int_equal(file_writer_commit(&w, &why), FACET_OK);
+    }
+    assert_content(path, "second");
+    unlink(path);
+}
+
+static void expect_resolved(const char *root, const char *path, bool is_inside, const char *end)
+{
+    char *resolved = NULL;
+    bool found = !is_inside;
+    facet_error why = {0};
+    assert_int_equal(file_resolve(root, path_of(path), &resolved, &found, &why), FACET_OK);
+    assert_int_equal(found, is_inside);
+    assert_string_equal(resolved + strlen(resolved) - strlen(end), end);
+    free(resolved);
+}
+
+static void links_are_followed_before_a_place_is_judged(void **state)
+{
+    (void)state;
+    char root[256];
+    snprintf(root, sizeof root, "%s", path_of("in"));
+    assert_int_equal(mkdir(root, 0700), 0);
+    assert_int_equal(mkdir(path_of("inside"), 0700), 0); /* a folder whose name only begins so */
+    write_text(path_of("in/a"), "a");
+    write_text(path_of("inside/b"), "b");
+    assert_int_equal(symlink("../inside/b", path_of("in/out")), 0);
+    assert_int_equal(symlink("../in/a", path_of("inside/back")), 0);
+    expect_resolved(root, "in/a", true, "/in/a");
+    expect_resolved(root, "in/../in/a", true, "/in/a");
+    expect_resolved(root, "inside/back", true, "/in/a");
+    expect_resolved(root, "in/out", false, "/inside/b");
+    expect_resolved(root, "inside/b", false, "/inside/b");
+    expect_resolved("/", "inside/b", true, "/inside/b");
+    char *resolved = NULL;
+    bool is_inside;
+    facet_error why = {0};
+    assert_int_equal(file_resolve(root, path_of("in/none"), &resolved, &is_inside, &why), FACET_IO);
+    assert_null(resolved);
+    static const char *const made[] = {"in/a", "in/out", "inside/b", "inside/back", "in", "inside"};
+    for (size_t i = 0; i < sizeof made/sizeof *made; i++) assert_int_equal(remove(path_of(made[i])), 0);
+}
+
 static void a_target_that_cannot_be_is_refused_at_once(void **state)
 {
     (void)state;
@@ -235,6 +294,8 @@ int main(void)
         TEST(a_temporary_left_by_a_killed_run_is_no_obstacle),
         TEST(a_full_disk_is_an_error),
         TEST(devices_are_written_in_place),
+        TEST(a_file_in_shared_memory_is_created_and_replaced),
+        TEST(links_are_followed_before_a_place_is_judged),
         TEST(a_target_that_cannot_be_is_refused_at_once),
         TEST(a_folder_without_permission_is_refused),
     };

@@ -1,11 +1,13 @@
 /* test_json.c: JSON is read strictly, and complaints name their place.
  * SPDX-License-Identifier: MIT */
 #include <float.h>
+#include <malloc.h>
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -145,10 +147,80 @@ static void members_come_in_the_order_of_the_file(void **state)
     assert_string_equal(order, "zam");
 }
 
+/* Sanitizers have an allocator of their own, which mallinfo2 does not see. */
+#if defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define HAS_OWN_ALLOCATOR 1
+#endif
+#endif
+
+/* Documents of many values of one kind take no more memory than json_memory says. */
+static void memory_is_told_before_it_is_taken(void **state)
+{
+    (void)state;
+    static const char *const values[] = {"{}",
+                                         "[]",
+                                         "0",
+                                         "\"\"",
+                                         "\"abcdefghijklmnopqrstuvwxyzabcdefghijklmn\\\"\"",
+                                         "[0]",
+                                         "[[[[]]]]",
+                                         "{\"a\":{}}",
+                                         "{\"a\":0,\"b\":[],\"c\":\"\"}",
+                                         "null",
+                                         "[1,2,3,4,5,6,7,8,9]"};
+    enum { N = 20000 };
+    for (size_t i = 0; i < sizeof values/sizeof *values; i++) {
+        const size_t length = strlen(values[i]);
+        char *text = malloc(N*(length + 1) + 2), *to = text;
+        assert_non_null(text);
+        *to++ = '[';
+        for (int k = 0; k < N; k++) {
+            memcpy(to, values[i], length);
+            to += length;
+            *to++ = k + 1 < N ? ',' : ']';
+        }
+        const size_t told = json_memory((const unsigned char *)text, (size_t)(to - text));
+        *to = 0;
+#ifndef HAS_OWN_ALLOCATOR
+        const struct mallinfo2 before = mallinfo2();
+        assert_true(parse(text));
+        const struct mallinfo2 after = mallinfo2();
+        const size_t taken = after.uordblks + after.hblkhd - before.uordblks - before.hblkhd;
+        print_message("  %-44.44s %5.1f bytes each of %5.1f told\n", values[i], (double)taken/N, (double)told/N);
+        assert_true(taken <= told);
+        json_destroy(&root);
+#else
+        assert_true(told > (size_t)(to - text));
+#endif
+        free(text);
+    }
+}
+
+static void memory_of_an_object_with_many_keys_is_told(void **state)
+{
+    (void)state;
+#ifndef HAS_OWN_ALLOCATOR
+    enum { N = 40000 };
+    char *text = malloc(N*16 + 2), *to = text;
+    assert_non_null(text);
+    *to++ = '{';
+    for (int k = 0; k < N; k++) to += sprintf(to, "\"%x\":0%c", k, k + 1 < N ? ',' : '}');
+    const size_t told = json_memory((const unsigned char *)text, (size_t)(to - text));
+    const struct mallinfo2 before = mallinfo2();
+    assert_true(parse(text));
+    const struct mallinfo2 after = mallinfo2();
+    assert_true(after.uordblks + after.hblkhd - before.uordblks - before.hblkhd <= told);
+    free(text);
+#endif
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_teardown(syntax_errors_are_refused_with_their_line, cleanup),
+        cmocka_unit_test_teardown(memory_is_told_before_it_is_taken, cleanup),
+        cmocka_unit_test_teardown(memory_of_an_object_with_many_keys_is_told, cleanup),
         cmocka_unit_test_teardown(nesting_beyond_the_cap_is_refused, cleanup),
         cmocka_unit_test_teardown(values_are_read_by_kind_and_range, cleanup),
         cmocka_unit_test_teardown(absent_members_leave_defaults, cleanup),
