@@ -20,7 +20,8 @@ typedef struct render_options {
     const char *camera, *env, *strategy, *sampler, *isa, *view;
     const char *checkpoint, *resume, *shard, *events, *mpi;
     option_number env_scale, time, noise, exposure, checkpoint_interval;
-    bool half, quiet, json;
+    const char *serve, *serve_token; /* serve: "" for its default */
+    bool half, quiet, json, serve_stay;
     /* what the command line as a whole leads to */
     const char *scene_path; /* NULL: the demo scene */
     char *default_output;   /* owned; NULL when outputs were named */

@@ -213,7 +213,9 @@ static void save(run *u)
 
 bool run_is_save_due(const run *u)
 {
-    return u->settings->save && run_now() - u->saved >= u->settings->save_interval;
+    const render_settings *r = u->settings;
+    if (!r->save) return false;
+    return run_now() - u->saved >= r->save_interval || (r->wants_save && r->wants_save(r->user));
 }
 
 void job_positions(const job *j, uint32_t *least, uint32_t *most)
