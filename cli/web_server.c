@@ -118,7 +118,7 @@ int web_server_start(const web_place *place, const char *token, web_handler *han
                              "num_threads",
                              "12",
                              "request_timeout_ms",
-                             "10000",
+                             "5000",
                              "enable_directory_listing",
                              "no",
                              "enable_keep_alive",
