@@ -1,6 +1,7 @@
 /* cmd_render.c: `facet render`, a scene to pictures.
  * SPDX-License-Identifier: MIT */
 #include <inttypes.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -14,6 +15,7 @@
 #include "cli/provenance.h"
 #include "cli/ranks.h"
 #include "cli/render_job.h"
+#include "cli/render_watch.h"
 #include "cli/report.h"
 
 enum { DEFAULT_DEPTH = 8, DEFAULT_INTERVAL = 60 };
@@ -23,12 +25,35 @@ typedef struct watch {
     progress progress;
     saver saver;
     event_log *events;
+    render_watch *page;
+    double checkpoint_due; /* in seconds of the render */
+    uint64_t n_kept;       /* the paths of the last checkpoint */
+    bool is_page_waiting;  /* for a picture */
 } watch;
 
+static void keep_checkpoint(watch *w, const render_state *state)
+{
+    save_checkpoint(&w->saver, state);
+    w->n_kept = state->n_paths;
+    w->checkpoint_due = state->seconds + w->saver.options->checkpoint_interval.value;
+}
+
+/* Whether the page wants a picture. */
+static bool on_question(void *user)
+{
+    watch *w = user;
+    w->is_page_waiting |= watch_wants_picture(w->page);
+    return w->is_page_waiting;
+}
+
+/* Comes for a checkpoint, for a picture or at the end. */
 static void on_save(void *user, const render_state *state)
 {
     watch *w = user;
-    save_checkpoint(&w->saver, state);
+    if (w->is_page_waiting) watch_show(w->page, &state->film);
+    if (w->saver.options->checkpoint && (!w->is_page_waiting || state->seconds >= w->checkpoint_due))
+        keep_checkpoint(w, state);
+    w->is_page_waiting = false;
 }
 
 static bool on_progress(void *user, const render_progress *state)
@@ -36,7 +61,8 @@ static bool on_progress(void *user, const render_progress *state)
     watch *w = user;
     progress_show(&w->progress, state);
     events_progress(w->events, state);
-    return !is_interrupted();
+    watch_progress(w->page, state);
+    return !is_interrupted() && watch_asked(w->page) == WISH_GO_ON;
 }
 
 /* Without -o: the scene's base name in the current folder, as PNG. */
@@ -74,7 +100,7 @@ static void tell_interruption(const render_options *o, const render_result *resu
 
 /* What comes after rendering: warnings, files, the summary. */
 static int finish(const render_options *o, const saver *saved, const render_state *state, const render_result *result,
-                  warning_list *warnings)
+                  warning_list *warnings, watch_wish wish)
 {
     if (result->n_bad)
         keep_warning(warnings,
@@ -84,7 +110,7 @@ static int finish(const render_options *o, const saver *saved, const render_stat
     if (result->n_clamped)
         keep_warning(warnings, "%" PRIu64 " samples were beyond a radiance of %.2g and count as that",
                      result->n_clamped, (double)FILM_MOST);
-    const bool is_stopped = result->is_stopped || is_interrupted();
+    const bool is_stopped = (result->is_stopped && wish != WISH_FINISH) || is_interrupted();
     provenance p;
     picture_set pictures = {0};
     int status = picture_set_create(o, &state->film, &result->picture, &pictures);
@@ -139,24 +165,32 @@ static int render_scene(render_options *o, warning_list *warnings, int status, c
     render_state state = {0};
     render_result result = {0};
     watch w = {.progress = progress_start(o->quiet), .events = warnings->events};
+    if (!status) status = watch_start(o, &w.page);
     status = prepare(o, warnings, status, error, &s, &r, &state);
     if (!status) {
         r.progress = on_progress;
-        r.save = o->checkpoint ? on_save : NULL;
-        r.save_interval = o->checkpoint_interval.value;
+        r.save = o->checkpoint || w.page ? on_save : NULL;
+        r.save_interval = o->checkpoint ? o->checkpoint_interval.value : HUGE_VAL;
+        r.wants_save = w.page ? on_question : NULL;
         r.user = &w;
+        w.checkpoint_due = state.seconds + o->checkpoint_interval.value;
         w.saver = (saver){.options = o, .scene = s, .settings = &r, .events = warnings->events};
         events_start(warnings->events, o, &r, &state);
         catch_signals();
         const facet_status failed = render_continue(s, &r, &state, &result, &why);
         progress_end(&w.progress);
         ranks_part();
+        if (!failed && o->checkpoint && w.n_kept != state.n_paths) keep_checkpoint(&w, &state);
         if (failed && state.film.pixels && !o->isa && strcmp(why.place, "isa") == 0)
             status = fail(EXIT_INPUT, o->resume, NULL, "was made with --isa %s, which this processor lacks", r.isa);
         else if (failed) status = fail_with(FROM_INPUT, o->scene_path, &why);
-        else if (!o->crew || o->crew->rank == 0) status = finish(o, &w.saver, &state, &result, warnings);
+        else if (!o->crew || o->crew->rank == 0)
+            status = finish(o, &w.saver, &state, &result, warnings, watch_asked(w.page));
+        watch_end(w.page, failed ? "failed" : status == EXIT_INTERRUPTED ? "cancelled" : "finished", &state.film);
     }
     events_done(warnings->events, o, &result, status);
+    if (!status) watch_stay(w.page);
+    watch_stop(w.page);
     render_result_destroy(&result);
     render_state_destroy(&state);
     scene_destroy(s);
@@ -209,7 +243,8 @@ static int render_with(render_options *o, int argc, char **argv, warning_list *w
     if (!status && (!o->crew || o->crew->rank == 0)) status = load_denoiser(o, &layers);
     if (!status && (!o->crew || o->crew->rank == 0)) status = check_files(o, warnings);
     else if (o->crew) {
-        o->checkpoint = o->resume = NULL;
+        o->checkpoint = o->resume = o->serve = o->serve_token = NULL;
+        o->serve_stay = false;
         o->quiet = true;
     }
     if (!status || o->crew) status = render_scene(o, warnings, status, error);
@@ -319,6 +354,15 @@ static const option options[] = {
      "append what happens (start, progress, checkpoints, warnings, the end) to FILE as it does, one JSON object a "
      "line; - is stderr",
      0, 0, NULL},
+    {"serve", 0, OPTION_PLACE, AT(serve), "[[ADDRESS:]PORT]",
+     "show the picture as it refines on a page, for this machine alone at http://127.0.0.1:8642/ unless told otherwise; "
+     "0 is any free port",
+     0, 0, NULL},
+    {"serve-token", 0, OPTION_TEXT, AT(serve_token), "FILE",
+     "let only those see the page who have the token in FILE; an ADDRESS that other machines reach needs it", 0, 0,
+     NULL},
+    {"serve-stay", 0, OPTION_FLAG, AT(serve_stay), NULL, "keep the page when the picture is finished, until Ctrl-C", 0,
+     0, NULL},
     {"json", 0, OPTION_FLAG, AT(json), NULL, "print one JSON object about the render on stdout at the end", 0, 0, NULL},
 };
 

@@ -1,9 +1,8 @@
-/* mpi_ranks.c: a crew (render/crew.h) whose messages travel by MPI.  The only file that calls MPI; any error inside
- * MPI ends all ranks, which is MPI's default.
+/* mpi_ranks.c: a crew (render/crew.h) whose messages travel by MPI.  The only file that calls MPI; a module of its own,
+ * which ranks.c loads when it is needed, since an MPI's libraries take over signals as soon as they are there.  Any
+ * error inside MPI ends all ranks, which is MPI's default.
  * SPDX-License-Identifier: MIT */
 #define _GNU_SOURCE /* sched_getaffinity */
-#include "cli/ranks.h"
-
 #include <mpi.h>
 #include <sched.h>
 #include <stdio.h>
@@ -11,6 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cli/ranks_module.h"
 #include "cli/report.h"
 
 enum { SHORT_MESSAGE = 1, BYTES = 2 }; /* tags */
@@ -60,7 +60,7 @@ static void name_library(char name[MPI_MAX_LIBRARY_VERSION_STRING])
         if (*c == '\t') *c = ' ';
 }
 
-int ranks_start(crew *c, const launch *by)
+static int start(crew *c, const launch *by, char *error, size_t size)
 {
     int provided, rank, n_ranks;
     MPI_Init_thread(NULL, NULL, MPI_THREAD_FUNNELED, &provided);
@@ -70,17 +70,18 @@ int ranks_start(crew *c, const launch *by)
         .rank = (uint32_t)rank, .n_ranks = (uint32_t)n_ranks, .send = send, .receive = receive, .exchange = exchange};
     if (gethostname(c->name, sizeof c->name)) snprintf(c->name, sizeof c->name, "?");
     c->name[sizeof c->name - 1] = 0;
-    if (provided < MPI_THREAD_FUNNELED && rank == 0)
-        return fail(EXIT_WORLD, NULL, NULL, "this MPI does not allow threads; use one that has MPI_THREAD_FUNNELED");
-    if (provided < MPI_THREAD_FUNNELED) return EXIT_WORLD;
+    if (provided < MPI_THREAD_FUNNELED) {
+        snprintf(error, size, "this MPI does not allow threads; use one that has MPI_THREAD_FUNNELED");
+        return EXIT_WORLD;
+    }
     if (by->n_ranks > 1 && n_ranks == 1) { /* every process believes to be alone */
         char library[MPI_MAX_LIBRARY_VERSION_STRING];
         name_library(library);
-        return by->rank ? EXIT_USAGE
-                        : fail(EXIT_USAGE, NULL, NULL,
-                               "started as one of %u processes by another MPI than facet's, which is %s; start it "
-                               "with that one's mpirun, or give --mpi off",
-                               by->n_ranks, library);
+        snprintf(error, size,
+                 "started as one of %u processes by another MPI than facet's, which is %s; start it with that one's "
+                 "mpirun, or give --mpi off",
+                 by->n_ranks, library);
+        return EXIT_USAGE;
     }
     return 0;
 }
@@ -93,7 +94,7 @@ static bool do_meet(const cpu_set_t *a, const cpu_set_t *b)
     return CPU_COUNT(&both) > 0;
 }
 
-uint32_t ranks_threads(void)
+static uint32_t count_threads(void)
 {
     MPI_Comm machine;
     int n_here, n_sharing = 0;
@@ -137,7 +138,7 @@ static int count_ranks(int *rank)
     return n_ranks;
 }
 
-void ranks_part(void)
+static void part(void)
 {
     int rank;
     if (!is_under_way()) return;
@@ -146,11 +147,13 @@ void ranks_part(void)
         while (rank > 0) pause(); /* until the leader ends the job */
 }
 
-void ranks_end(int status)
+static void end(int status)
 {
-    ranks_part();
+    part();
     if (!is_under_way()) return;
     fflush(NULL);
     if (!freopen("/dev/null", "w", stderr)) return; /* MPI_Abort would tell of itself */
     MPI_Abort(MPI_COMM_WORLD, status);
 }
+
+const ranks_module facet_ranks_module = {start, count_threads, part, end};

@@ -131,6 +131,7 @@ static int set_value(const option *o, const char *text, void *value)
         if (!*text) return bad_value(o, text, "a value: it is empty");
         *(const char **)value = text;
         return PARSE_GO;
+    case OPTION_PLACE: *(const char **)value = text; return PARSE_GO;
     case OPTION_TEXTS: {
         text_list *list = value;
         if (!*text) return bad_value(o, text, "a value: it is empty");
@@ -206,6 +207,13 @@ static const option *find_option(const command *c, const char *argument, const c
     return NULL;
 }
 
+/* Whether an argument looks like PORT or ADDRESS:PORT. */
+static bool is_place(const char *text)
+{
+    const char *colon = strrchr(text, ':'), *port = colon ? colon + 1 : text;
+    return *port && !port[strspn(port, "0123456789")];
+}
+
 /* Handles the option at argv[*i], moving *i to its last argument. */
 static int take_option(const command *c, int argc, char **argv, int *i, void *values, uint64_t *given)
 {
@@ -218,7 +226,9 @@ static int take_option(const command *c, int argc, char **argv, int *i, void *va
         command_help(c);
         return finish_stdout(0);
     }
-    if (o->kind != OPTION_FLAG && !text) {
+    if (o->kind == OPTION_PLACE && !text) {
+        text = *i + 1 < argc && is_place(argv[*i + 1]) ? argv[++*i] : "";
+    } else if (o->kind != OPTION_FLAG && !text) {
         if (*i + 1 == argc || strncmp(argv[*i + 1], "--", 2) == 0)
             return fail(EXIT_USAGE, NULL, NULL, "`%s` needs a value: %s %s", spelling, spelling, o->value);
         text = argv[++*i];

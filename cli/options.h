@@ -44,6 +44,7 @@ typedef enum option_kind {
     OPTION_SIZE,    /* size_t[2]: WIDTHxHEIGHT */
     OPTION_RECT,    /* size_t[4]: X,Y,W,H */
     OPTION_VECTOR,  /* option_vector: X,Y,Z */
+    OPTION_PLACE,   /* const char *: [ADDRESS:]PORT or nothing: "" without a value that looks like one */
     OPTION_CHOICE   /* const char *: one of `choices`, separated by '|' */
 } option_kind;
 

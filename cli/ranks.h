@@ -1,7 +1,7 @@
 /* ranks.h: the processes of one `mpirun facet render ...`.
  *
  * Rank 0 leads: it alone reads checkpoints, writes files and speaks; the others keep silent, and an error of theirs
- * is told by it.  mpi_ranks.c is the only file that calls MPI; no_ranks.c takes its place in a build without.
+ * is told by it.  mpi_ranks.c is the only file that calls MPI, in a module that is loaded when it is needed.
  * SPDX-License-Identifier: MIT */
 #pragma once
 

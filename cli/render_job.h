@@ -22,7 +22,8 @@ typedef struct render_options {
     const char *aov, *oidn;
     option_number env_scale, time, noise, exposure, checkpoint_interval;
     uint64_t max_memory; /* 0: the default */
-    bool half, quiet, json, denoise, allow_outside;
+    const char *serve, *serve_token; /* serve: "" for its default */
+    bool half, quiet, json, denoise, allow_outside, serve_stay;
     const struct layer_choice *layers; /* what --aov and --denoise lead to */
     /* what the command line as a whole leads to */
     const char *scene_path; /* NULL: the demo scene */

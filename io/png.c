@@ -36,6 +36,7 @@ typedef struct job {
     png_bytepp rows;
     png_textp texts;
     image picture;
+    bool is_fast; /* compressed a little, for a picture that is shown once */
     bool is_out_of_memory, is_io_error;
     facet_error refusal; /* of a size */
     char message[160];
@@ -252,6 +253,10 @@ static bool write_picture(job *j, const image *picture, const image_text *text, 
     png_set_user_limits(j->png, MAX_SIDE, MAX_SIDE);
     png_set_IHDR(j->png, j->info, (png_uint_32)picture->width, (png_uint_32)picture->height, (int)sample*8,
                  TYPES[picture->n_channels], PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    if (j->is_fast) {
+        png_set_compression_level(j->png, 1);
+        png_set_filter(j->png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
+    }
     png_set_sRGB(j->png, j->info, PNG_sRGB_INTENT_PERCEPTUAL);
     set_texts(j, text, n_texts);
     png_write_info(j->png, j->info);
@@ -286,6 +291,25 @@ static facet_status check_arguments(const image *picture, const image_text *text
     return FACET_OK;
 }
 
+/* Writes to a stream; whether the stream took it is for its owner to find out. */
+static facet_status write_stream(FILE *stream, bool is_fast, const image *picture, const image_text *text,
+                                 size_t n_texts, facet_error *why)
+{
+    facet_status status = FACET_OK;
+    job j = {.stream = stream, .is_fast = is_fast};
+    j.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &j, on_error, on_warning);
+    j.info = j.png ? png_create_info_struct(j.png) : NULL;
+    if (!j.info) {
+        status = facet_error_set(why, FACET_NO_MEMORY, "", "no memory to write a PNG file");
+    } else if (!write_picture(&j, picture, text, n_texts) && !j.is_io_error) {
+        status = facet_error_set(why, j.is_out_of_memory ? FACET_NO_MEMORY : FACET_BAD_ARGUMENT, "", "PNG: %s",
+                                 j.message);
+    }
+    png_destroy_write_struct(&j.png, &j.info);
+    free(j.texts);
+    return status;
+}
+
 facet_status png_write(const char *path, const image *picture, const image_text *text, size_t n_texts, facet_error *why)
 {
     facet_status status = check_arguments(picture, text, n_texts, why);
@@ -297,20 +321,36 @@ facet_status png_write(const char *path, const image *picture, const image_text 
     if (status != FACET_OK) {
         return status;
     }
-    job j = {.stream = writer.stream};
-    j.png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &j, on_error, on_warning);
-    j.info = j.png ? png_create_info_struct(j.png) : NULL;
-    if (!j.info) {
-        status = facet_error_set(why, FACET_NO_MEMORY, "", "no memory to write a PNG file");
-    } else if (!write_picture(&j, picture, text, n_texts) && !j.is_io_error) {
-        status = facet_error_set(why, j.is_out_of_memory ? FACET_NO_MEMORY : FACET_BAD_ARGUMENT, "", "PNG: %s",
-                                 j.message);
-    }
-    png_destroy_write_struct(&j.png, &j.info);
-    free(j.texts);
+    status = write_stream(writer.stream, false, picture, text, n_texts, why);
     if (status != FACET_OK) {
         file_writer_discard(&writer);
         return status;
     }
     return file_writer_commit(&writer, why); /* a failed write is found here, with its cause */
+}
+
+facet_status png_encode(const image *picture, char **bytes, size_t *size, facet_error *why)
+{
+    facet_status status = check_arguments(picture, NULL, 0, why);
+    if (status != FACET_OK) {
+        return status;
+    }
+    char *made = NULL;
+    size_t n_made = 0;
+    FILE *stream = open_memstream(&made, &n_made);
+    if (!stream) {
+        return facet_error_set(why, FACET_NO_MEMORY, "", "no memory for a PNG picture");
+    }
+    status = write_stream(stream, true, picture, NULL, 0, why);
+    const bool is_whole = !ferror(stream);
+    if (fclose(stream) != 0 || !is_whole) {
+        status = facet_error_set(why, FACET_NO_MEMORY, "", "no memory for a PNG picture");
+    }
+    if (status != FACET_OK) {
+        free(made);
+        return status;
+    }
+    *bytes = made;
+    *size = n_made;
+    return FACET_OK;
 }

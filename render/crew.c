@@ -127,7 +127,7 @@ facet_status crew_agree(const crew *c, crew_part *part, facet_status status, uin
         verdict.n_threads += its.n_threads;
         if (part) part->peers[from].n_threads = its.n_threads;
     }
-    if (!verdict.status) verdict.status = part_plan(part, verdict.n_threads);
+    if (!verdict.status && c->rank == 0) verdict.status = part_plan(part, verdict.n_threads);
     crew_share(c, &verdict, sizeof verdict);
     if (!verdict.status && c->rank > 0) verdict.status = part_plan(part, verdict.n_threads);
     return verdict.status;

@@ -170,7 +170,9 @@ static void save(run *u)
 
 bool run_is_save_due(const run *u)
 {
-    return u->settings->save && run_now() - u->saved >= u->settings->save_interval;
+    const render_settings *r = u->settings;
+    if (!r->save) return false;
+    return run_now() - u->saved >= r->save_interval || (r->wants_save && r->wants_save(r->user));
 }
 
 /* Renders the tiles that are behind the target; true when all are there or done. */

@@ -17,6 +17,7 @@ static size_t value_size(option_kind kind)
     switch (kind) {
     case OPTION_FLAG: return sizeof(bool);
     case OPTION_TEXT:
+    case OPTION_PLACE:
     case OPTION_CHOICE: return sizeof(char *);
     case OPTION_TEXTS: return sizeof(text_list);
     case OPTION_INTEGER:

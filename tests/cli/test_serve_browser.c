@@ -1,0 +1,148 @@
+/* test_serve_browser.c: the page of `facet render --serve` in headless Chromium: what it says and what it looks like, in
+ * light and dark.  Skipped where there is no Chromium, or facet was built without civetweb.
+ * SPDX-License-Identifier: MIT */
+#include <setjmp.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+/* cmocka needs the headers above */
+#include <cmocka.h>
+
+#include "io/image_file.h"
+#include "tests/run_program.h"
+#include "tests/small_scene.h"
+
+static char *folder;
+
+static int setup(void **state)
+{
+    (void)state;
+    folder = make_folder();
+    write_text(in_folder(folder, "scene.gltf"), small_scene);
+    return 0;
+}
+
+static int teardown(void **state)
+{
+    (void)state;
+    remove_folder(folder);
+    return 0;
+}
+
+/* Starts a render whose page stays; returns the page's address, the caller's to free. */
+static char *start(pid_t *pid, const char *spp)
+{
+    const char *const argv[] = {FACET_PROGRAM, "render", "scene.gltf", "--size", "480x240",      "--spp", spp,
+                                "-o",          "s.exr",  "--serve",    "0",      "--serve-stay", NULL};
+    unlink(in_folder(folder, "stderr"));
+    *pid = start_program(folder, NULL, NULL, argv);
+    for (;; usleep(2000)) {
+        char *text = read_bytes(in_folder(folder, "stderr"), NULL);
+        char *url = text ? strstr(text, "http://") : NULL;
+        char *copy = url && strchr(url, ' ') ? strndup(url, (size_t)(strchr(url, ' ') - url)) : NULL;
+        free(text);
+        if (copy) return copy;
+    }
+}
+
+/* Opens the page until its render is over; the DOM is in `out`, the screen in screen.png. */
+static program_run open_page(const char *url, bool is_dark)
+{
+    char data[1300], screen[1300];
+    snprintf(data, sizeof data, "--user-data-dir=%s", in_folder(folder, "browser"));
+    snprintf(screen, sizeof screen, "--screenshot=%s", in_folder(folder, "screen.png"));
+    const char *const argv[] = {FACET_CHROMIUM,
+                                "--headless",
+                                "--no-sandbox",
+                                "--disable-gpu",
+                                "--no-first-run",
+                                "--window-size=1000,700",
+                                "--virtual-time-budget=2000",
+                                data,
+                                screen,
+                                "--dump-dom",
+                                is_dark ? "--blink-settings=preferredColorScheme=0"
+                                        : "--blink-settings=preferredColorScheme=1",
+                                url,
+                                NULL};
+    const pid_t pid = fork(); /* its messages must not be where the render's are */
+    assert_true(pid >= 0);
+    if (pid == 0) {
+        char *own = strdup(in_folder(folder, "browser-run"));
+        const char *const make[] = {"/bin/mkdir", "-p", own, NULL};
+        wait_for_program(start_program(folder, NULL, "/dev/null", make));
+        _exit(wait_for_program(start_program(own, NULL, in_folder(folder, "dom"), argv)));
+    }
+    program_run run = {.status = wait_for_program(pid)};
+    run.out = read_bytes(in_folder(folder, "dom"), NULL);
+    return run;
+}
+
+static void expect_text(const char *dom, const char *text)
+{
+    if (!dom || !strstr(dom, text)) fail_msg("the page has no `%s`:\n%s", text, dom ? dom : "(none)");
+}
+
+static const unsigned char *pixel_at(const image *screen, size_t x, size_t y)
+{
+    return (const unsigned char *)screen->pixels + (y*screen->width + x)*screen->n_channels;
+}
+
+static void look(const char *url, bool is_dark)
+{
+    program_run run = open_page(url, is_dark);
+    assert_int_equal(run.status, 0);
+    expect_text(run.out, "id=\"phase\" role=\"status\">finished<");
+    expect_text(run.out, "scene.gltf, 480 x 240");
+    expect_text(run.out, "id=\"bar\" max=\"1\" value=\"1\"");
+    expect_text(run.out, "/picture.png?v=");
+    program_run_free(&run);
+    image s;
+    facet_error why = {0};
+    if (image_read(in_folder(folder, "screen.png"), &s, &why)) fail_msg("%s", why.text);
+    assert_true(s.width == 1000 && s.type == PIXEL_U8 && s.n_channels >= 3);
+    const unsigned char *corner = pixel_at(&s, 8, 100);
+    assert_true(is_dark ? corner[0] < 64 : corner[0] > 192);
+    size_t n_others = 0; /* the picture stands in the middle: pixels that are not the page's background */
+    for (size_t y = 200; y < 400; y++)
+        for (size_t x = 300; x < 700; x++) n_others += memcmp(pixel_at(&s, x, y), corner, 3) != 0;
+    assert_true(n_others > 200*400/2);
+    const char *keep = getenv("FACET_SCREENSHOTS"); /* a folder for people who want to look */
+    if (keep) {
+        char line[3000];
+        snprintf(line, sizeof line, "cp '%s' '%s/serve-%s.png'", in_folder(folder, "screen.png"), keep,
+                 is_dark ? "dark" : "light");
+        const char *const argv[] = {"/bin/sh", "-c", line, NULL};
+        assert_int_equal(wait_for_program(start_program(folder, NULL, "/dev/null", argv)), 0);
+    }
+    image_destroy(&s);
+}
+
+static void a_browser_shows_the_render_in_light_and_dark(void **state)
+{
+    (void)state;
+    if (!FACET_HAS_WEB || !FACET_CHROMIUM[0]) {
+        print_message("skipped: %s\n", FACET_HAS_WEB ? "chromium was not found: apt-get install chromium"
+                                                     : "facet was built without civetweb");
+        skip();
+    }
+    pid_t pid;
+    char *url = start(&pid, "40");
+    look(url, false); /* opened while it renders, waits for its end */
+    look(url, true);
+    free(url);
+    kill(pid, SIGINT);
+    assert_int_equal(wait_for_program(pid), 0);
+}
+
+int main(void)
+{
+    const struct CMUnitTest tests[] = {cmocka_unit_test(a_browser_shows_the_render_in_light_and_dark)};
+    return cmocka_run_group_tests_name("serve_browser", tests, setup, teardown);
+}
