@@ -8,7 +8,7 @@ BUILD = cmake --build --preset
 # Seconds for each fuzzing program.
 FUZZ_SECONDS ?= 60
 
-.PHONY: help setup setup-check build demo test bench format check sanitize tsan fuzz coverage clean
+.PHONY: help setup setup-check build demo test web test-web bench format check sanitize tsan fuzz coverage clean
 
 help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1|/p' Makefile | while IFS='|' read -r name what; do \
@@ -30,8 +30,22 @@ demo: setup ## build the program and render the built-in scene to facet.png
 	build/release/facet render
 	@echo "the picture: $(CURDIR)/facet.png"
 
+# WEB=no leaves the explorer out.  Where its packages cannot be had, its tests are left out, and what is missing is said.
 test: build ## build and run all tests (PRESET=dev)
 	ctest --preset $(PRESET) $(CTEST_FLAGS)
+	@if [ "$(WEB)" = no ]; then :; \
+	elif tools/setup.sh web && tools/web.sh install; then $(MAKE) --no-print-directory test-web; \
+	else echo "test: the explorer's tests are skipped: what they need is missing, see above"; fi
+
+web: ## build the explorer, a static page, in build/web
+	@tools/setup.sh web
+	cmake --preset $(PRESET)
+	$(BUILD) $(PRESET) -j $(JOBS) --target wasm glsl
+	@tools/web.sh build build/$(PRESET)
+
+test-web: web ## test the explorer in Chromium
+	$(BUILD) $(PRESET) -j $(JOBS) --target facet_program
+	@tools/web.sh test build/$(PRESET)
 
 bench: setup ## build with -O3 and run the benchmarks
 	cmake --preset release

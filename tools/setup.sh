@@ -1,23 +1,27 @@
 #!/bin/sh
-# Installs the packages of tools/packages.txt that are missing: the group `build`, or all with the argument `check`.
+# Installs the packages of tools/packages.txt that are missing: the group `build`, with the argument `web` that of the
+# explorer too, with `check` all.
 # When nothing is missing it needs neither network nor root.
 #
 # SPDX-License-Identifier: MIT
 set -eu
 
 list=$(dirname "$0")/packages.txt
-wanted=$(awk -v all="${1:-build}" '
-    /^\[/ { take = ($1 == "[build]" || all == "check"); next }
+wanted=$(awk -v group="${1:-build}" '
+    /^\[/ { take = ($1 == "[build]" || $1 == "[" group "]" || group == "check"); next }
     { sub(/#.*/, "") }
     take && NF { print $1 }' "$list")
 
 if ! command -v dpkg-query >/dev/null 2>&1; then
-    echo "setup: this is not a Debian system: install what corresponds to" $wanted >&2
+    echo "setup: this is not a Debian system: install what corresponds to" $wanted | sed 's|/[a-z]*||g' >&2
     exit 1
 fi
 
 missing=
-for package in $wanted; do
+for entry in $wanted; do
+    package=${entry%/*} program=${entry#*/}
+    if [ "$program" != "$entry" ] && command -v "$program" >/dev/null 2>&1; then continue; fi
+    case " $missing " in *" $package "*) continue ;; esac
     state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
     [ "$state" = installed ] || missing="$missing $package"
 done

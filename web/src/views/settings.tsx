@@ -1,0 +1,137 @@
+/* settings.tsx: the settings that the view at hand has, above it.
+ *
+ * SPDX-License-Identifier: MIT */
+import type { JSX } from "preact";
+import { Amount, Choice, Menu } from "../panel/controls";
+import { useAround } from "../session";
+import { DEFAULTS, type Channel, type Curve, type Scale, type State } from "../state/state";
+
+const CURVE_NAMES: readonly (readonly [Curve, string])[] = [
+  ["D", "D: normals"],
+  ["Lambda", "Λ: Smith's function"],
+  ["G1", "G₁: masking"],
+  ["F", "F: Fresnel"],
+  ["f", "f over θ (theta-v)"],
+  ["fcos", "f cos θ over θ"],
+  ["pdf", "pdf of the sampler"],
+  ["theta-h", "f over θ_h"],
+  ["theta-d", "f over θ_d"],
+  ["albedo", "albedo"],
+  ["error", "error of the published masking"],
+];
+const SCALE_NAMES: readonly (readonly [Scale, string])[] = [
+  ["linear", "linear"],
+  ["log", "log"],
+  ["shifted", "log(1+y)"],
+];
+const CHANNEL_NAMES: readonly (readonly [Channel, string])[] = [
+  ["luminance", "luminance"],
+  ["red", "red"],
+  ["green", "green"],
+  ["blue", "blue"],
+];
+
+/** An angle of the state with its slider. */
+type AngleKey =
+  "theta" | "phi" | "theta2" | "phi2" | "thetaH" | "thetaD" | "phiD" | "exposure" | "lightTheta" | "lightPhi";
+
+export function Angle(props: {
+  state: State;
+  of: AngleKey;
+  label: string;
+  low: number;
+  high: number;
+  unit?: string;
+  step?: number;
+}): JSX.Element {
+  const { store } = useAround(),
+    { of } = props;
+  return (
+    <Amount
+      label={props.label}
+      unit={props.unit ?? "°"}
+      low={props.low}
+      high={props.high}
+      step={props.step ?? 0.1}
+      value={props.state[of]}
+      initial={DEFAULTS[of]}
+      set={value => store.slide({ [of]: value })}
+    />
+  );
+}
+
+function CurveSettings({ state }: { state: State }): JSX.Element {
+  const { store } = useAround(),
+    { curve } = state;
+  return (
+    <>
+      <Menu label="curve" value={curve} values={CURVE_NAMES} set={next => store.step({ curve: next })} />
+      {curve === "error" ? (
+        <Choice
+          label="of"
+          value={state.errorOf}
+          values={[
+            ["G1", "G₁"],
+            ["Lambda", "Λ"],
+            ["f", "f"],
+          ]}
+          set={errorOf => store.step({ errorOf })}
+        />
+      ) : (
+        <Choice label="scale" value={state.scale} values={SCALE_NAMES} set={scale => store.step({ scale })} />
+      )}
+      {["D", "Lambda", "G1", "F", "f", "fcos", "pdf"].includes(curve) && (
+        <Choice
+          label="axes"
+          value={state.isPolar ? "polar" : "Cartesian"}
+          values={[
+            ["Cartesian", "Cartesian"],
+            ["polar", "polar"],
+          ]}
+          set={axes => store.step({ isPolar: axes === "polar" })}
+        />
+      )}
+      {curve === "theta-h" && <Angle state={state} of="thetaD" label="θd" low={0} high={90} />}
+      {curve === "theta-d" && <Angle state={state} of="thetaH" label="θh" low={0} high={90} />}
+      {(curve === "theta-h" || curve === "theta-d") && <Angle state={state} of="phiD" label="φd" low={0} high={180} />}
+    </>
+  );
+}
+
+/** The two directions that all views and the numbers share. */
+function Directions({ state }: { state: State }): JSX.Element {
+  const { store } = useAround(),
+    [still, moving] = state.fixed === "viewer" ? ["o", "i"] : ["i", "o"];
+  return (
+    <>
+      <Choice
+        label="fixed"
+        value={state.fixed}
+        values={[
+          ["viewer", "viewer"],
+          ["light", "light"],
+        ]}
+        set={fixed => store.step({ fixed })}
+      />
+      <Angle state={state} of="theta" label={`θ${still}`} low={0} high={89.9} />
+      <Angle state={state} of="phi" label={`φ${still}`} low={0} high={360} step={1} />
+      <Angle state={state} of="theta2" label={`θ${moving}`} low={-90} high={90} />
+      <Angle state={state} of="phi2" label={`Δφ${moving}`} low={-180} high={180} step={1} />
+    </>
+  );
+}
+
+export function Settings({ state }: { state: State }): JSX.Element {
+  const { store } = useAround();
+  return (
+    <div class="settings" role="group" aria-label="settings of the view">
+      <div class="settings-line">
+        {state.view === "curves" && <CurveSettings state={state} />}
+        <Menu label="channel" value={state.channel} values={CHANNEL_NAMES} set={channel => store.step({ channel })} />
+      </div>
+      <div class="settings-line">
+        <Directions state={state} />
+      </div>
+    </div>
+  );
+}
