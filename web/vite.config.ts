@@ -28,4 +28,5 @@ export default defineConfig({
     assetsInlineLimit: 0,
   },
   worker: { format: "es" },
+  plugins: [{ name: "stamp", transformIndexHtml: html => html.replace("facet.wasm", `facet.wasm?${stamp}`) }],
 });

@@ -8,9 +8,13 @@ import { Materials } from "./panel/materials";
 import { Around, type Session } from "./session";
 import type { State, View } from "./state/state";
 import { DARK, LIGHT } from "./state/theme";
+import { ChecksView } from "./views/checks";
 import { Curves } from "./views/curves";
+import { Lobe } from "./views/lobe";
 import { Readout } from "./views/readout";
+import { Samples } from "./views/samples";
 import { Settings } from "./views/settings";
+import { Slice } from "./views/slice";
 
 const NAMES: readonly (readonly [View, string])[] = [
   ["curves", "Curves"],
@@ -78,6 +82,14 @@ function Tabs({ state, show }: { state: State; show: (view: View) => void }): JS
 
 function ViewOf({ state }: { state: State }): JSX.Element {
   switch (state.view) {
+    case "lobe":
+      return <Lobe state={state} />;
+    case "slice":
+      return <Slice state={state} />;
+    case "samples":
+      return <Samples state={state} />;
+    case "checks":
+      return <ChecksView state={state} />;
     default:
       return <Curves state={state} />;
   }

@@ -8,7 +8,7 @@ import { Session } from "./session";
 import { Store } from "./state/store";
 
 async function compile(): Promise<WebAssembly.Module> {
-  const url = new URL("./facet.wasm", document.baseURI);
+  const url = new URL(`./facet.wasm?${FACET_STAMP}`, document.baseURI);
   try {
     return await WebAssembly.compileStreaming(fetch(url));
   } catch (error) {

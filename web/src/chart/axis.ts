@@ -16,6 +16,10 @@ export interface AxisSpec {
   readonly scale?: Scale;
   /** Grid lines at these values instead of round ones. */
   readonly ticks?: readonly number[];
+  /** What is written at the ticks, if not their values. */
+  readonly names?: readonly string[];
+  /** Where the name of a left axis stands. */
+  readonly labelAt?: number;
 }
 
 export interface Box {
@@ -109,7 +113,7 @@ export function drawAxis(
     axis.ticks?.slice() ?? (isLog ? logTicks(scale) : scale.ticks(isLeft ? box.height / 48 : box.width / 80));
   const make = (isLeft ? axisLeft : axisBottom)(scale as AxisScale<number>)
     .tickValues(ticks)
-    .tickFormat(value => (isLog ? logLabel(Number(value)) : plainLabel(Number(value))))
+    .tickFormat((value, i) => axis.names?.[i] ?? (isLog ? logLabel(Number(value)) : plainLabel(Number(value))))
     .tickSizeInner(isLeft ? -box.width : -box.height)
     .tickSizeOuter(0)
     .tickPadding(7);
@@ -124,7 +128,7 @@ export function drawAxis(
     .attr("stroke", theme.faint)
     .attr("stroke-opacity", isLeft ? 0 : 0.6);
   const place = isLeft
-    ? { x: 14, y: box.top + box.height / 2, turn: -90 }
+    ? { x: axis.labelAt ?? 14, y: box.top + box.height / 2, turn: -90 }
     : { x: box.left + box.width / 2, y: box.top + box.height + 36 };
   addText(to, axis.label, { ...place, ink: theme.ink, anchor: "middle", size: 12.5 });
 }

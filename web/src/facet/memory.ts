@@ -3,13 +3,17 @@
  * Pointers are offsets.  Memory may grow at any malloc, which detaches every view: views are made anew each time.
  * SPDX-License-Identifier: MIT */
 
-/** What facet.wasm exports, as far as the page uses it; include/facet/facet.h is the reference.  A struct that C
- *  returns is written to an offset given first. */
-export interface FacetExports extends WebAssembly.Exports {
+/** What every module of ours has. */
+export interface Heap extends WebAssembly.Exports {
   memory: WebAssembly.Memory;
-  _initialize(): void;
   malloc(bytes: number): number;
   free(at: number): void;
+}
+
+/** What facet.wasm exports, as far as the page uses it; include/facet/facet.h is the reference.  A struct that C
+ *  returns is written to an offset given first. */
+export interface FacetExports extends Heap {
+  _initialize(): void;
   facet_version(): number;
   facet_model_count(): number;
   facet_model_get(i: number): number;
@@ -32,7 +36,7 @@ export interface FacetExports extends WebAssembly.Exports {
 }
 
 export class Memory {
-  constructor(private readonly facet: FacetExports) {}
+  constructor(private readonly facet: Heap) {}
 
   allocate(bytes: number): number {
     const at = this.facet.malloc(bytes);

@@ -2,7 +2,7 @@
  *
  * SPDX-License-Identifier: MIT */
 import type { JSX } from "preact";
-import { Amount, Choice, Menu } from "../panel/controls";
+import { Amount, Check, Choice, Menu } from "../panel/controls";
 import { useAround } from "../session";
 import { DEFAULTS, type Channel, type Curve, type Scale, type State } from "../state/state";
 
@@ -33,7 +33,18 @@ const CHANNEL_NAMES: readonly (readonly [Channel, string])[] = [
 
 /** An angle of the state with its slider. */
 type AngleKey =
-  "theta" | "phi" | "theta2" | "phi2" | "thetaH" | "thetaD" | "phiD" | "exposure" | "lightTheta" | "lightPhi";
+  | "theta"
+  | "phi"
+  | "theta2"
+  | "phi2"
+  | "thetaH"
+  | "thetaD"
+  | "phiD"
+  | "exposure"
+  | "lightTheta"
+  | "lightPhi"
+  | "turn"
+  | "tilt";
 
 export function Angle(props: {
   state: State;
@@ -98,10 +109,56 @@ function CurveSettings({ state }: { state: State }): JSX.Element {
   );
 }
 
+function LobeSettings({ state }: { state: State }): JSX.Element {
+  const { store } = useAround();
+  return (
+    <>
+      <Choice
+        label="scale"
+        value={state.scale === "linear" ? "linear" : "shifted"}
+        values={[SCALE_NAMES[0], SCALE_NAMES[2]]}
+        set={scale => store.step({ scale })}
+      />
+      <Check label="times cos θᵢ" value={state.hasCosine} set={hasCosine => store.step({ hasCosine })} />
+      <Angle state={state} of="turn" label="turn" low={0} high={360} step={1} />
+      <Angle state={state} of="tilt" label="tilt" low={-90} high={90} step={1} />
+    </>
+  );
+}
+
+function SliceSettings({ state }: { state: State }): JSX.Element {
+  const { store } = useAround();
+  return (
+    <>
+      <Angle state={state} of="phiD" label="φd" low={0} high={180} />
+      <Angle state={state} of="exposure" label="exposure" low={-6} high={6} unit="stops" />
+      <Check label="square θh" value={state.hasSquareThetaH} set={value => store.step({ hasSquareThetaH: value })} />
+      <Check label="chroma" value={state.hasChroma} set={hasChroma => store.step({ hasChroma })} />
+    </>
+  );
+}
+
+function CountSettings({ state }: { state: State }): JSX.Element {
+  const { store } = useAround(),
+    factor = state.view === "checks" ? 20 : 1;
+  return (
+    <Amount
+      label="samples"
+      unit=""
+      low={100 * factor}
+      high={10000 * factor}
+      step={100 * factor}
+      value={state.samples * factor}
+      initial={DEFAULTS.samples * factor}
+      set={n => store.slide({ samples: Math.round(n / factor) })}
+    />
+  );
+}
+
 /** The two directions that all views and the numbers share. */
 function Directions({ state }: { state: State }): JSX.Element {
   const { store } = useAround(),
-    [still, moving] = state.fixed === "viewer" ? ["o", "i"] : ["i", "o"];
+    [still, moving] = state.fixed === "viewer" ? ["ₒ", "ᵢ"] : ["ᵢ", "ₒ"];
   return (
     <>
       <Choice
@@ -127,7 +184,12 @@ export function Settings({ state }: { state: State }): JSX.Element {
     <div class="settings" role="group" aria-label="settings of the view">
       <div class="settings-line">
         {state.view === "curves" && <CurveSettings state={state} />}
-        <Menu label="channel" value={state.channel} values={CHANNEL_NAMES} set={channel => store.step({ channel })} />
+        {state.view === "lobe" && <LobeSettings state={state} />}
+        {state.view === "slice" && <SliceSettings state={state} />}
+        {(state.view === "samples" || state.view === "checks") && <CountSettings state={state} />}
+        {(state.view === "curves" || state.view === "lobe") && (
+          <Menu label="channel" value={state.channel} values={CHANNEL_NAMES} set={channel => store.step({ channel })} />
+        )}
       </div>
       <div class="settings-line">
         <Directions state={state} />

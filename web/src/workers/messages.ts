@@ -2,10 +2,11 @@
  *
  * SPDX-License-Identifier: MIT */
 
-/** Every worker first gets the compiled module, and then requests, which it answers one after the other. */
+/** A worker first gets the compiled library, and where the checks are; then requests, which it answers in order. */
 export interface Start {
   readonly kind: "start";
   readonly module: WebAssembly.Module;
+  readonly checks: string;
 }
 
 export interface AlbedoRequest {
@@ -18,7 +19,43 @@ export interface AlbedoAnswer {
   readonly transmitted: readonly number[];
 }
 
-export type Request = AlbedoRequest;
+export interface FurnaceRequest {
+  readonly kind: "furnace";
+  readonly text: string;
+  readonly wo: readonly number[];
+}
+/** Numbers that are not defined for the material are NaN. */
+export interface FurnaceAnswer extends AlbedoAnswer {
+  readonly weak: number;
+  readonly allowedWeak: number;
+  readonly deviation: number;
+  readonly allowed: number;
+}
+
+export interface ChiSquareRequest {
+  readonly kind: "chi-square";
+  readonly text: string;
+  readonly wo: readonly number[];
+  readonly n: number;
+}
+/** Bands of cos theta_i, each cut into sectors of azimuth about `mean`; verify/sampler_density.h. */
+export interface ChiSquareAnswer {
+  readonly p: number;
+  readonly statistic: number;
+  readonly degrees: number;
+  readonly mass: number;
+  readonly lost: number;
+  readonly level: number;
+  readonly n: number;
+  readonly mean: readonly [number, number];
+  readonly nBands: number;
+  readonly cosines: Float64Array;
+  readonly azimuths: Float64Array;
+  readonly expected: Float64Array;
+  readonly observed: Float64Array;
+}
+
+export type Request = AlbedoRequest | FurnaceRequest | ChiSquareRequest;
 
 export interface Numbered {
   readonly number: number;

@@ -19,7 +19,8 @@ export class Queue {
     private readonly worker: Worker,
     module: WebAssembly.Module,
   ) {
-    worker.postMessage({ kind: "start", module } satisfies Start);
+    const checks = new URL(`./facet_checks.wasm?${FACET_STAMP}`, document.baseURI).href;
+    worker.postMessage({ kind: "start", module, checks } satisfies Start);
     worker.onmessage = (event: MessageEvent<Answer>) => this.finish(event.data);
     worker.onerror = event => this.finish({ number: this.n_sent, error: event.message || "the worker failed" });
   }
