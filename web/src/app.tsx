@@ -15,6 +15,7 @@ import { Readout } from "./views/readout";
 import { Samples } from "./views/samples";
 import { Settings } from "./views/settings";
 import { Slice } from "./views/slice";
+import { Sphere } from "./views/sphere";
 
 const NAMES: readonly (readonly [View, string])[] = [
   ["curves", "Curves"],
@@ -90,6 +91,8 @@ function ViewOf({ state }: { state: State }): JSX.Element {
       return <Samples state={state} />;
     case "checks":
       return <ChecksView state={state} />;
+    case "sphere":
+      return <Sphere state={state} />;
     default:
       return <Curves state={state} />;
   }

@@ -138,6 +138,19 @@ function SliceSettings({ state }: { state: State }): JSX.Element {
   );
 }
 
+function SphereSettings({ state }: { state: State }): JSX.Element {
+  const { store } = useAround();
+  return (
+    <>
+      <Angle state={state} of="lightTheta" label="light θ" low={0} high={180} />
+      <Angle state={state} of="lightPhi" label="light φ" low={0} high={360} step={1} />
+      <Check label="double θ" value={state.isDoubled} set={isDoubled => store.step({ isDoubled })} />
+      <Check label="times cos θᵢ" value={state.hasCosine} set={hasCosine => store.step({ hasCosine })} />
+      <Angle state={state} of="exposure" label="exposure" low={-6} high={6} unit="stops" />
+    </>
+  );
+}
+
 function CountSettings({ state }: { state: State }): JSX.Element {
   const { store } = useAround(),
     factor = state.view === "checks" ? 20 : 1;
@@ -186,6 +199,7 @@ export function Settings({ state }: { state: State }): JSX.Element {
         {state.view === "curves" && <CurveSettings state={state} />}
         {state.view === "lobe" && <LobeSettings state={state} />}
         {state.view === "slice" && <SliceSettings state={state} />}
+        {state.view === "sphere" && <SphereSettings state={state} />}
         {(state.view === "samples" || state.view === "checks") && <CountSettings state={state} />}
         {(state.view === "curves" || state.view === "lobe") && (
           <Menu label="channel" value={state.channel} values={CHANNEL_NAMES} set={channel => store.step({ channel })} />
