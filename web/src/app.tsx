@@ -11,6 +11,7 @@ import { DARK, LIGHT } from "./state/theme";
 import { ChecksView } from "./views/checks";
 import { Curves } from "./views/curves";
 import { Lobe } from "./views/lobe";
+import { LitObject } from "./views/object";
 import { Readout } from "./views/readout";
 import { Samples } from "./views/samples";
 import { Settings } from "./views/settings";
@@ -93,6 +94,8 @@ function ViewOf({ state }: { state: State }): JSX.Element {
       return <ChecksView state={state} />;
     case "sphere":
       return <Sphere state={state} />;
+    case "object":
+      return <LitObject state={state} />;
     default:
       return <Curves state={state} />;
   }

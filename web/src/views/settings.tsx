@@ -4,7 +4,7 @@
 import type { JSX } from "preact";
 import { Amount, Check, Choice, Menu } from "../panel/controls";
 import { useAround } from "../session";
-import { DEFAULTS, type Channel, type Curve, type Scale, type State } from "../state/state";
+import { DEFAULTS, ENVIRONMENTS, OBJECTS, type Channel, type Curve, type Scale, type State } from "../state/state";
 
 const CURVE_NAMES: readonly (readonly [Curve, string])[] = [
   ["D", "D: normals"],
@@ -151,6 +151,35 @@ function SphereSettings({ state }: { state: State }): JSX.Element {
   );
 }
 
+const ENVIRONMENT_NAMES = ENVIRONMENTS.map(name => [name, name] as const);
+
+function ObjectSettings({ state }: { state: State }): JSX.Element {
+  const { store } = useAround();
+  return (
+    <>
+      <Menu
+        label="light"
+        value={state.environment}
+        values={ENVIRONMENT_NAMES}
+        set={environment => store.step({ environment })}
+      />
+      {state.view === "object" && (
+        <>
+          <Menu
+            label="object"
+            value={state.object}
+            values={OBJECTS.map(name => [name, name] as const)}
+            set={object => store.step({ object })}
+          />
+          <Angle state={state} of="turn" label="turn" low={0} high={360} step={1} />
+          <Angle state={state} of="tilt" label="tilt" low={-90} high={90} step={1} />
+        </>
+      )}
+      <Angle state={state} of="exposure" label="exposure" low={-6} high={6} unit="stops" />
+    </>
+  );
+}
+
 function CountSettings({ state }: { state: State }): JSX.Element {
   const { store } = useAround(),
     factor = state.view === "checks" ? 20 : 1;
@@ -200,6 +229,7 @@ export function Settings({ state }: { state: State }): JSX.Element {
         {state.view === "lobe" && <LobeSettings state={state} />}
         {state.view === "slice" && <SliceSettings state={state} />}
         {state.view === "sphere" && <SphereSettings state={state} />}
+        {(state.view === "object" || state.view === "traced") && <ObjectSettings state={state} />}
         {(state.view === "samples" || state.view === "checks") && <CountSettings state={state} />}
         {(state.view === "curves" || state.view === "lobe") && (
           <Menu label="channel" value={state.channel} values={CHANNEL_NAMES} set={channel => store.step({ channel })} />
