@@ -17,6 +17,7 @@ import { Samples } from "./views/samples";
 import { Settings } from "./views/settings";
 import { Slice } from "./views/slice";
 import { Sphere } from "./views/sphere";
+import { Traced } from "./views/traced";
 
 const NAMES: readonly (readonly [View, string])[] = [
   ["curves", "Curves"],
@@ -96,6 +97,8 @@ function ViewOf({ state }: { state: State }): JSX.Element {
       return <Sphere state={state} />;
     case "object":
       return <LitObject state={state} />;
+    case "traced":
+      return <Traced state={state} />;
     default:
       return <Curves state={state} />;
   }

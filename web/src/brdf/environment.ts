@@ -46,17 +46,17 @@ const plus = (a: Vector, scale: number, b: Vector): Vector => [
 
 const RADIANCES: Record<EnvironmentName, (v: Vector) => Vector> = {
   studio: v => {
-    let light = grey(0.22 + 0.3 * smooth(-0.2, 1, v[1]));
-    light = plus(light, softBox(v, [-0.9, 0.75, 0.7], 0.42, 0.5), [8.5, 8.2, 7.6]);
-    light = plus(light, softBox(v, [1, 0.25, 0.15], 0.16, 0.75), [5, 5.6, 6.6]);
-    return plus(light, softBox(v, [0.1, 1, -0.75], 0.8, 0.16), [3.4, 3.4, 3.4]);
+    let light = grey(0.1 + 0.16 * smooth(-0.2, 1, v[1]));
+    light = plus(light, softBox(v, [-0.9, 0.75, 0.7], 0.42, 0.5), [4.2, 4.05, 3.75]);
+    light = plus(light, softBox(v, [1, 0.25, 0.15], 0.16, 0.75), [2.6, 2.9, 3.4]);
+    return plus(light, softBox(v, [0.1, 1, -0.75], 0.8, 0.16), [2, 2, 2]);
   },
   sky: v => {
     const up = smooth(-0.05, 0.9, v[1]),
       isGround = smooth(0.02, -0.04, v[1]);
     let light: Vector = [0.95 - 0.68 * up, 1.02 - 0.5 * up, 1.12 - 0.1 * up];
     const sun = dot(v, normalised([-0.55, 0.62, 0.56]));
-    light = plus(light, smooth(0.985, 0.992, sun), [46, 40, 30]);
+    light = plus(light, smooth(0.985, 0.992, sun), [60, 52, 40]);
     light = plus(light, 0.8 * smooth(0.6, 1, sun), [0.7, 0.5, 0.3]);
     return light.map((x, k) => x * (1 - isGround) + isGround * [0.2, 0.18, 0.15][k]) as Vector;
   },
