@@ -2,7 +2,9 @@
  *
  * SPDX-License-Identifier: MIT */
 import type { JSX } from "preact";
-import { useEffect, useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { FIT_NAMES } from "./brdf/fits";
+import { Drop } from "./panel/drop";
 import { IconButton } from "./panel/icons";
 import { Materials } from "./panel/materials";
 import { Around, type Session } from "./session";
@@ -108,6 +110,7 @@ export function App({ session }: { session: Session }): JSX.Element {
   const { store } = session;
   const [state, setState] = useState(store.state);
   const [theme, toggleTheme] = useTheme();
+  const open = useRef(() => {});
   useEffect(() => store.listen(() => setState({ ...store.state })), []);
   return (
     <Around.Provider value={{ session, theme }}>
@@ -121,7 +124,7 @@ export function App({ session }: { session: Session }): JSX.Element {
         </div>
       </header>
       <aside aria-label="materials and parameters">
-        <Materials state={state} fits={session.fits} open={() => undefined} />
+        <Materials state={state} fits={FIT_NAMES} open={() => open.current()} />
       </aside>
       <main>
         <Tabs state={state} show={view => store.step({ view })} />
@@ -131,6 +134,7 @@ export function App({ session }: { session: Session }): JSX.Element {
         </div>
         <Readout state={state} />
       </main>
+      <Drop open={open} />
     </Around.Provider>
   );
 }

@@ -22,7 +22,7 @@ async function start(): Promise<void> {
   const page = document.getElementById("page")!;
   try {
     const module = await compile();
-    const session = new Session(instantiate(module), [], module, new Store());
+    const session = new Session(instantiate(module), module, new Store());
     page.textContent = "";
     render(<App session={session} />, page);
     requestAnimationFrame(() => performance.mark("facet-first-view"));

@@ -4,6 +4,9 @@
 import { createContext } from "preact";
 import { useContext } from "preact/hooks";
 import type { Brdf } from "./brdf/brdf";
+import { loadFit } from "./brdf/fits";
+import type { Opened } from "./brdf/opened";
+import { ShaderBrdf } from "./brdf/shader_brdf";
 import { SpecError, type Facet } from "./facet/library";
 import type { Entry } from "./state/state";
 import type { Store } from "./state/store";
@@ -13,46 +16,59 @@ export type Resolved =
   { readonly brdf: Brdf; readonly problem?: undefined } | { readonly problem: string; readonly brdf?: undefined };
 
 export class Session {
-  /** By the text of their entries: "file:NAME", "fit:NAME". */
-  private readonly others = new Map<string, Brdf>();
-  private readonly loading = new Set<string>();
-  private readonly problems = new Map<string, string>();
+  private readonly files = new Map<string, Opened>();
+  private readonly variants = new Map<string, ShaderBrdf>();
+  private readonly fits = new Map<string, Resolved>();
 
   constructor(
     readonly facet: Facet,
-    readonly fits: readonly string[],
     readonly module: WebAssembly.Module,
     readonly store: Store,
   ) {}
 
-  add(text: string, brdf: Brdf): void {
-    this.others.set(text, brdf);
+  /** The text of an entry for it: "file:NAME ...". */
+  addFile(opened: Opened): string {
+    const name = opened instanceof ShaderBrdf ? opened.settings.model.name : opened.name;
+    this.files.set(name, opened);
+    this.variants.clear();
+    return opened.text;
   }
 
-  /** Fetches a material once; the page is drawn again when it is there. */
-  private load(text: string, fetchIt: () => Promise<Brdf>): void {
-    if (this.loading.has(text)) return;
-    this.loading.add(text);
-    fetchIt()
-      .then(
-        brdf => this.others.set(text, brdf),
-        (error: Error) => this.problems.set(text, error.message),
-      )
-      .finally(() => this.store.slide({}));
+  file(name: string): Opened | undefined {
+    return this.files.get(name);
   }
 
-  resolve(entry: Entry): Resolved {
-    const { text } = entry,
-      known = this.others.get(text),
-      problem = this.problems.get(text);
-    if (known) return { brdf: known };
-    if (problem) return { problem };
-    if (text.startsWith("file:"))
-      return { problem: `${text.slice(5)} is not in the address: drop the file here again` };
-    if (text.startsWith("fit:")) {
-      this.load(text, () => import("./brdf/fits").then(fits => fits.loadFit(text.slice(4))));
-      return { problem: "loading …" };
+  private resolveFile(text: string): Resolved {
+    const [name, ...words] = text.split(" "),
+      file = this.files.get(name);
+    if (!file) return { problem: `${name} is not in the address: drop the file here again` };
+    if (!(file instanceof ShaderBrdf)) return { brdf: file };
+    let variant = this.variants.get(text);
+    if (!variant) {
+      if (this.variants.size > 64) this.variants.clear();
+      this.variants.set(text, (variant = file.withWords(words)));
     }
+    return { brdf: variant };
+  }
+
+  /** Fetches a fit once; the page is drawn again when it is there. */
+  private resolveFit(name: string): Resolved {
+    let fit = this.fits.get(name);
+    if (!fit) {
+      this.fits.set(name, (fit = { problem: "loading …" }));
+      loadFit(name)
+        .then(
+          brdf => this.fits.set(name, { brdf }),
+          (error: Error) => this.fits.set(name, { problem: error.message }),
+        )
+        .finally(() => this.store.tell());
+    }
+    return fit;
+  }
+
+  resolve({ text }: Entry): Resolved {
+    if (text.startsWith("file:")) return this.resolveFile(text.slice(5));
+    if (text.startsWith("fit:")) return this.resolveFit(text.slice(4));
     try {
       return { brdf: this.facet.prepare(text) };
     } catch (error) {

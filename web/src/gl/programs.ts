@@ -26,8 +26,9 @@ export class Programs {
     private readonly vertex: string,
     private readonly head: string,
     private readonly rest: string,
+    mayWait = true,
   ) {
-    this.parallel = gl.getExtension("KHR_parallel_shader_compile");
+    this.parallel = mayWait ? gl.getExtension("KHR_parallel_shader_compile") : null;
   }
 
   /** The program, or undefined while it is being compiled; ShaderProblem if it cannot be. */

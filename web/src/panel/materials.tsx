@@ -3,7 +3,9 @@
  * SPDX-License-Identifier: MIT */
 import type { JSX } from "preact";
 import { useState } from "preact/hooks";
+import { ShaderBrdf } from "../brdf/shader_brdf";
 import { FacetBrdf } from "../facet/facet_brdf";
+import { specText, type Settings } from "../facet/library";
 import { useAround } from "../session";
 import { nextId, selectedEntry, type Entry, type State } from "../state/state";
 import { DASHES, lineColour } from "../state/theme";
@@ -13,6 +15,14 @@ import { Parameters } from "./parameters";
 
 function replaced(state: State, id: number, change: Partial<Entry>): { entries: Entry[] } {
   return { entries: state.entries.map(entry => (entry.id === id ? { ...entry, ...change } : entry)) };
+}
+
+function withValue(settings: Settings, at: number, values: readonly number[], isGiven: boolean): Settings {
+  return {
+    ...settings,
+    values: settings.values.map((old, k) => (k === at ? values : old)),
+    given: settings.given.map((is, k) => (k === at ? isGiven : is)),
+  };
 }
 
 function Key({ place }: { place: number }): JSX.Element {
@@ -144,6 +154,14 @@ export function Materials({
   const [refused, setRefused] = useState("");
   const entry = selectedEntry(state),
     brdf = entry && session.resolve(entry).brdf;
+  const settings = brdf instanceof FacetBrdf || brdf instanceof ShaderBrdf ? brdf.settings : undefined;
+  const isFile = brdf instanceof ShaderBrdf;
+  const set = (k: number, values: readonly number[]): string | undefined =>
+    isFile ? `file:${specText(withValue(settings!, k, values, true))}` : setParameter(facet, settings!, k, values);
+  const reset = (k: number): string =>
+    isFile
+      ? `file:${specText(withValue(settings!, k, settings!.model.parameters[k].initial, false))}`
+      : resetParameter(facet, settings!, k);
   const change = (text: string | undefined, isStep: boolean): void => {
     if (!entry) return;
     setRefused(text === undefined ? "The library takes this value with none of the others." : "");
@@ -157,21 +175,21 @@ export function Materials({
         ))}
       </ul>
       <AddMenu state={state} fits={fits} open={open} />
-      {brdf instanceof FacetBrdf && (
+      {settings && (
         <section class="selected">
-          <h2>{brdf.settings.model.name}</h2>
-          <p class="summary">{brdf.settings.model.summary}</p>
+          <h2>{settings.model.name}</h2>
+          <p class="summary">{settings.model.summary}</p>
           <Parameters
-            settings={brdf.settings}
-            set={(k, values) => change(setParameter(facet, brdf.settings, k, values), false)}
-            reset={k => change(resetParameter(facet, brdf.settings, k), true)}
+            settings={settings}
+            set={(k, values) => change(set(k, values), false)}
+            reset={k => change(reset(k), true)}
           />
           {refused && (
             <p class="problem" role="alert">
               {refused}
             </p>
           )}
-          <p class="source">{brdf.settings.model.source}</p>
+          <p class="source">{settings.model.source}</p>
         </section>
       )}
     </>

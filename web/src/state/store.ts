@@ -44,7 +44,7 @@ export class Store {
   }
 
   /** Many changes between two frames make one picture. */
-  private tell(): void {
+  tell(): void {
     if (this.pending) return;
     this.pending = requestAnimationFrame(() => {
       this.pending = 0;
