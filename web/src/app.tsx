@@ -4,6 +4,7 @@
 import type { JSX } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { FIT_NAMES } from "./brdf/fits";
+import { ExportMenu } from "./export/export_menu";
 import { Drop } from "./panel/drop";
 import { IconButton } from "./panel/icons";
 import { Materials } from "./panel/materials";
@@ -120,6 +121,7 @@ export function App({ session }: { session: Session }): JSX.Element {
         </h1>
         <p class="tagline">Microfacet reflection, computed here by libfacet {session.facet.version}</p>
         <div class="actions">
+          <ExportMenu state={state} />
           <IconButton name="theme" label="light or dark" onClick={toggleTheme} />
         </div>
       </header>

@@ -52,7 +52,7 @@ export function glslName(brdf: FacetBrdf, files: readonly string[]): string {
 }
 
 // Kernels that serve a part of a model only have a file of their own.
-const KERNEL_FILES = ["rough_dielectric"];
+export const KERNEL_FILES = ["rough_dielectric"];
 
 async function facetShading(brdf: FacetBrdf): Promise<Shading> {
   const name = glslName(brdf, KERNEL_FILES),

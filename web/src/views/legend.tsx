@@ -16,12 +16,8 @@ export function Legend({ lines }: { lines: readonly LegendLine[] }): JSX.Element
   return (
     <figcaption class="legend">
       {lines.map(({ place, label, note }) => (
-        <span
-          key={place}
-          class="legend-line"
-          data-export-key={`${lineColour(theme, place)}|${DASHES[place % DASHES.length]}`}
-        >
-          <svg width="26" height="10" aria-hidden="true" data-no-export>
+        <span key={place} class="legend-line">
+          <svg width="26" height="10" aria-hidden="true">
             <line
               x1="1"
               x2="25"
