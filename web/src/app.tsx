@@ -17,7 +17,7 @@ import { Lobe } from "./views/lobe";
 import { LitObject } from "./views/object";
 import { Readout } from "./views/readout";
 import { Samples } from "./views/samples";
-import { Settings } from "./views/settings";
+import { Directions, Settings } from "./views/settings";
 import { Slice } from "./views/slice";
 import { Sphere } from "./views/sphere";
 import { Traced } from "./views/traced";
@@ -131,6 +131,7 @@ export function App({ session }: { session: Session }): JSX.Element {
       <main>
         <Tabs state={state} show={view => store.step({ view })} />
         <Settings state={state} />
+        <Directions state={state} />
         <div class="view" id="view" role="tabpanel" aria-labelledby={`tab-${state.view}`}>
           <ViewOf state={state} />
         </div>

@@ -85,6 +85,7 @@ export function readBrdf(name: string, text: string): BrdfFile {
     first = lines[0].trim().split(/\s+/)[0];
   if (first !== "analytic") fail(name, 1, `begins with "${first.slice(0, 20)}"; a .brdf file begins with "analytic"`);
   const all = sections(name, lines),
+    parameters = readParameters(name, all),
     shader = all.filter(section => section.name === "shader").flatMap(section => section.lines.map(one => one.text));
   if (!/\bvec3\s+BRDF\s*\(/.test(shader.join("\n")))
     fail(name, lines.length, "its shader has no vec3 BRDF(vec3 L, vec3 V, vec3 N, vec3 X, vec3 Y)");
@@ -92,7 +93,7 @@ export function readBrdf(name: string, text: string): BrdfFile {
     name,
     summary: "a file of Disney's BRDF Explorer",
     source: "dropped",
-    parameters: readParameters(name, all),
+    parameters,
   };
   return { model, shader: shader.join("\n") };
 }

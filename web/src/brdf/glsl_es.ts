@@ -1,7 +1,8 @@
 /* glsl_es.ts: GLSL 4.10 as people wrote it for Disney's BRDF Explorer, for WebGL 2.
  *
  * GLSL ES 3.00 does not turn integers into floats by itself, and `const` wants a constant: whole numbers become floats
- * but where integers are meant (an index, a statement with an int), and `const` goes from inside functions.
+ * but where integers are meant (an index, a statement with an int, an int's place in a call), and `const` goes from
+ * inside functions.
  * SPDX-License-Identifier: MIT */
 
 interface Token {
@@ -30,6 +31,21 @@ function integerNames(tokens: readonly Token[]): Set<string> {
   return names;
 }
 
+/** For each function that takes integers, which of its parameters are. */
+function integerParameters(text: string): Map<string, boolean[]> {
+  const found = new Map<string, boolean[]>();
+  for (const [, name, list] of text.matchAll(/\b[A-Za-z]\w*\s+([A-Za-z_]\w*)\s*\(([^()]*)\)\s*\{/g)) {
+    const are = list.split(",").map(one =>
+      one
+        .trim()
+        .split(/\s+/)
+        .some(word => INTEGER_TYPES.has(word)),
+    );
+    if (are.some(is => is)) found.set(name, are);
+  }
+  return found;
+}
+
 /** Statements end at ; { and }, and at the ; of a for, too. */
 function integerStatements(tokens: readonly Token[], names: ReadonlySet<string>): boolean[] {
   const isInteger = new Array<boolean>(tokens.length).fill(false);
@@ -46,7 +62,9 @@ function integerStatements(tokens: readonly Token[], names: ReadonlySet<string>)
 /** The text with `rename` applied to words that are not fields. */
 export function toGlslEs(text: string, rename: (word: string) => string): string {
   const tokens = tokensOf(text),
-    isInteger = integerStatements(tokens, integerNames(tokens));
+    isInteger = integerStatements(tokens, integerNames(tokens)),
+    parameters = integerParameters(text),
+    calls: { readonly name: string; place: number }[] = [];
   let braces = 0,
     brackets = 0,
     before = "";
@@ -55,13 +73,18 @@ export function toGlslEs(text: string, rename: (word: string) => string): string
       const { text: part, kind } = token,
         last = before;
       if (kind !== "space") before = part;
+      if (part === "(") calls.push({ name: last, place: 0 });
+      if (part === ")") calls.pop();
+      if (part === "," && calls.length) calls[calls.length - 1].place++;
       if (part === "{") braces++;
       if (part === "}") braces--;
       if (part === "[") brackets++;
       if (part === "]") brackets--;
       if (kind === "word") return part === "const" && braces > 0 ? "" : last === "." ? part : rename(part);
       if (kind !== "number" || !/^\d+$/.test(part)) return part;
-      return brackets > 0 || isInteger[i] ? part : `${part}.0`;
+      const call = calls[calls.length - 1],
+        isArgument = call !== undefined && parameters.get(call.name)?.[call.place] === true;
+      return brackets > 0 || isInteger[i] || isArgument ? part : `${part}.0`;
     })
     .join("");
 }

@@ -91,7 +91,7 @@ export class LobeRenderer {
     const { gl, program, surface } = this;
     twgl.setAttribInfoBufferFromArray(gl, surface.attribs!.position, positions);
     twgl.setBuffersAndAttributes(gl, program, surface);
-    twgl.setUniforms(program, { size, is_lit: 1, colour: [...colour, 0.72] });
+    twgl.setUniforms(program, { size, is_lit: 1, colour: [...colour, 0.55] });
     gl.clear(gl.DEPTH_BUFFER_BIT);
     gl.colorMask(false, false, false, false);
     twgl.drawBufferInfo(gl, surface);

@@ -166,7 +166,7 @@ export function Lobe({ state }: { state: State }): JSX.Element {
           ref={svg}
           class="can-turn"
           role="application"
-          tabIndex={0}
+          tabindex={0}
           aria-label="lobes; arrow keys turn the view"
           onKeyDown={keys}
           onPointerDown={down}

@@ -198,11 +198,11 @@ function CountSettings({ state }: { state: State }): JSX.Element {
 }
 
 /** The two directions that all views and the numbers share. */
-function Directions({ state }: { state: State }): JSX.Element {
+export function Directions({ state }: { state: State }): JSX.Element {
   const { store } = useAround(),
     [still, moving] = state.fixed === "viewer" ? ["ₒ", "ᵢ"] : ["ᵢ", "ₒ"];
   return (
-    <>
+    <div class="directions-line settings-line" role="group" aria-label="directions">
       <Choice
         label="fixed"
         value={state.fixed}
@@ -216,7 +216,7 @@ function Directions({ state }: { state: State }): JSX.Element {
       <Angle state={state} of="phi" label={`φ${still}`} low={0} high={360} step={1} />
       <Angle state={state} of="theta2" label={`θ${moving}`} low={-90} high={90} />
       <Angle state={state} of="phi2" label={`Δφ${moving}`} low={-180} high={180} step={1} />
-    </>
+    </div>
   );
 }
 
@@ -234,9 +234,6 @@ export function Settings({ state }: { state: State }): JSX.Element {
         {(state.view === "curves" || state.view === "lobe") && (
           <Menu label="channel" value={state.channel} values={CHANNEL_NAMES} set={channel => store.step({ channel })} />
         )}
-      </div>
-      <div class="settings-line">
-        <Directions state={state} />
       </div>
     </div>
   );

@@ -156,9 +156,9 @@ export function Tiles(props: TilesProps): JSX.Element {
             data-box={JSON.stringify(boxes[i] ?? null)}
             style={
               boxes[i] && {
-                left: `${boxes[i].left - 20}px`,
+                left: `${boxes[i].left}px`,
                 top: `${boxes[i].top + boxes[i].side + 6}px`,
-                width: `${boxes[i].side + 40}px`,
+                width: `${boxes[i].side}px`,
               }
             }
           >
