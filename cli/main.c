@@ -10,8 +10,9 @@
 #include "cli/suggest.h"
 
 static const command *const commands[] = {
-    &render_command, &merge_command, &compare_command, &eval_command,      &sample_command, &terms_command,
-    &albedo_command, &plot_command,  &verify_command,  &materials_command, &scenes_command, &info_command,
+    &render_command, &merge_command,  &compare_command, &eval_command,   &sample_command,
+    &terms_command,  &albedo_command, &plot_command,    &verify_command, &materials_command,
+    &scenes_command, &info_command,   &explore_command,
 };
 enum { N_COMMANDS = sizeof commands/sizeof *commands };
 

@@ -133,3 +133,10 @@ test("an address survives a reload, and going back", async () => {
   assert.deepEqual(complaints, []);
   await close();
 });
+
+test("facet explore says where the page is", { skip: !process.env.FACET_PROGRAM && "needs the program" }, () => {
+  const [page, serve, address] = facet("explore", "--port", "9123").trim().split("\n");
+  assert.equal(page, `page:  ${process.env.FACET_PAGE}/index.html`);
+  assert.match(serve, /^serve: .* 127\.0\.0\.1 .* 9123$/);
+  assert.equal(address, "open:  http://127.0.0.1:9123/");
+});
