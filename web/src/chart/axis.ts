@@ -130,5 +130,7 @@ export function drawAxis(
   const place = isLeft
     ? { x: axis.labelAt ?? 14, y: box.top + box.height / 2, turn: -90 }
     : { x: box.left + box.width / 2, y: box.top + box.height + 36 };
-  addText(to, axis.label, { ...place, ink: theme.ink, anchor: "middle", size: 12.5 });
+  // On a phone, the symbol and the unit.
+  const label = box.width < 400 && !isLeft ? axis.label.replace(/, [^[]*(?=\[)/, " ") : axis.label;
+  addText(to, label, { ...place, ink: theme.ink, anchor: "middle", size: 12.5 });
 }

@@ -83,7 +83,7 @@ export class FacetBrdf implements Brdf {
     }
     this.scratch = scratchOf(facet);
     this.lobes = exports.facet_bsdf_lobes(this.bsdf);
-    this.hasTerms = this.terms([0, 0, 1]).D > 0;
+    this.hasTerms = this.D([0, 0, 1]) > 0;
   }
 
   release(): void {
@@ -150,6 +150,14 @@ export class FacetBrdf implements Brdf {
     exports.facet_bsdf_terms(at, this.bsdf, at + 16);
     const [D, Lambda, G1] = memory.f32(at, 3);
     return { D, Lambda, G1 };
+  }
+
+  /** D alone, where Lambda takes long. */
+  D(m: readonly number[]): number {
+    const at = this.scratch.small,
+      { memory, exports } = this.facet;
+    memory.f32(at, 3).set(m);
+    return exports.facet_bsdf_D(this.bsdf, at);
   }
 
   /** The directional albedo, of reflection and of what goes through. */

@@ -1,4 +1,4 @@
-/* lobes.ts: surfaces around a point, translucent, the smaller ones seen through the larger ones.
+/* lobes.ts: surfaces around a point, translucent, the smaller ones over the larger ones.
  *
  * SPDX-License-Identifier: MIT */
 import * as twgl from "twgl.js";
@@ -91,7 +91,7 @@ export class LobeRenderer {
     const { gl, program, surface } = this;
     twgl.setAttribInfoBufferFromArray(gl, surface.attribs!.position, positions);
     twgl.setBuffersAndAttributes(gl, program, surface);
-    twgl.setUniforms(program, { size, is_lit: 1, colour: [...colour, 0.55] });
+    twgl.setUniforms(program, { size, is_lit: 1, colour: [...colour, 0.8] });
     gl.clear(gl.DEPTH_BUFFER_BIT);
     gl.colorMask(false, false, false, false);
     twgl.drawBufferInfo(gl, surface);

@@ -45,7 +45,7 @@ in vec3 n, t;
 out vec4 result;
 void main()
 {
-    vec3 axis = normalize(n), x = normalize(t - dot(t, axis)*axis), y = cross(axis, x);
+    vec3 axis = normalize(dot(n, out_) < 0.0 ? -n : n), x = normalize(t - dot(t, axis)*axis), y = cross(axis, x);
     vec3 wo = normalize(vec3(dot(out_, x), dot(out_, y), max(dot(out_, axis), 0.01))), sum = vec3(0);
     for (int k = 0; k < n_lights; k++)
         sum += shade_eval(vec3(dot(lights[k], x), dot(lights[k], y), dot(lights[k], axis)), wo)*powers[k];

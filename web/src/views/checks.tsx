@@ -126,7 +126,7 @@ function drawChiSquare(layers: Layers, checked: Checked): string {
   const { p, level, n, degrees, statistic } = chiSquare,
     holds = p >= level;
   const shown = p < 1e-4 ? p.toExponential(1) : p.toFixed(3);
-  return `p = ${shown} ${holds ? "holds" : "FAILS"} (level ${level}): χ² = ${statistic.toFixed(1)}, ${degrees} degrees of freedom, ${n} samples`;
+  return `p = ${shown} ${holds ? "holds" : "FAILS"} (level ${level}); χ² = ${statistic.toFixed(0)} of ${degrees} cells, ${n} samples`;
 }
 
 export function ChecksView({ state }: { state: State }): JSX.Element {

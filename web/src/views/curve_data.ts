@@ -37,10 +37,10 @@ export function channelOf(channel: Channel, rgb: Rgb): Float32Array {
   return rgb.r.map((r, i) => 0.2126 * r + 0.7152 * rgb.g[i] + 0.0722 * rgb.b[i]);
 }
 
-/** The light and the viewer of each angle in the plane: one stands at -theta, the other at the angle. */
+/** The light and the viewer of each angle: one stands at -theta, the other at the angle in a plane turned by phi2. */
 export function planeDirections(state: State, angles: Float64Array): { wi: Directions; wo: Directions } {
   const moving = newDirections(angles.length);
-  angles.forEach((angle, i) => setDirection(moving, i, direction(angle, state.phi)));
+  angles.forEach((angle, i) => setDirection(moving, i, direction(angle, state.phi + state.phi2)));
   const still = sameDirections(angles.length, direction(-state.theta, state.phi));
   return state.fixed === "viewer" ? { wi: moving, wo: still } : { wi: still, wo: moving };
 }
@@ -86,7 +86,8 @@ function term(brdf: Brdf, state: State, name: "D" | "Lambda" | "G1"): Points {
     x = curveAngles(low, 90, [0]);
   const y = Float64Array.from(x, angle => {
     const m = direction(angle, state.phi);
-    return m[2] > 1e-9 || name === "D" ? brdf.terms(m)[name] : NaN;
+    if (name === "D") return brdf.D(m);
+    return m[2] > 1e-9 ? brdf.terms(m)[name] : NaN;
   });
   return { x, y };
 }
@@ -118,8 +119,22 @@ function maskingError(facet: Facet, brdf: Brdf, state: State): Points {
   return { x: curves[0].x, y: Float64Array.from(curves[0].x, (_, i) => curves[1].y[i] - curves[0].y[i]) };
 }
 
-/** Values that take no longer than a frame; albedos are made elsewhere. */
+const known = new Map<string, Points>();
+const MOST_KEPT = 32;
+
+/** Values that take no longer than a frame, made once for each material and setting. */
 export function curvePoints(facet: Facet, brdf: Brdf, state: State): Points {
+  const { curve, isPolar, channel, fixed, theta, phi, phi2, thetaH, thetaD, phiD, errorOf } = state;
+  const key = [brdf.text, curve, isPolar, channel, fixed, theta, phi, phi2, thetaH, thetaD, phiD, errorOf].join("|");
+  let points = known.get(key);
+  if (!points) {
+    if (known.size >= MOST_KEPT) known.delete(known.keys().next().value!);
+    known.set(key, (points = computePoints(facet, brdf, state)));
+  }
+  return points;
+}
+
+function computePoints(facet: Facet, brdf: Brdf, state: State): Points {
   const low = brdf instanceof FacetBrdf && brdf.transmits ? -180 : -90;
   switch (state.curve) {
     case "D":

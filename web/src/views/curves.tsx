@@ -55,7 +55,7 @@ function chartOf(state: State, series: readonly Series[], faint: string, ink: st
     ? []
     : [
         { x: -state.theta, label: state.fixed === "viewer" ? "ω_o" : "ω_i", colour: ink },
-        { x: state.theta, label: "mirror", colour: faint },
+        ...(state.phi2 ? [] : [{ x: state.theta, label: "mirror", colour: faint }]),
       ];
   const isError = curve === "error";
   const y: AxisSpec = {

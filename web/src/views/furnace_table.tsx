@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: MIT */
 import type { JSX } from "preact";
 import type { Brdf } from "../brdf/brdf";
+import { FacetBrdf } from "../facet/facet_brdf";
 import { useAround } from "../session";
 import { visibleEntries, type State } from "../state/state";
 import { lineColour } from "../state/theme";
@@ -20,6 +21,8 @@ function verdict(deviation: number, allowed: number): JSX.Element | string {
 
 export function FurnaceTable(props: { state: State; checked: (brdf: Brdf) => Checked }): JSX.Element {
   const { session, theme } = useAround();
+  const resolved = visibleEntries(props.state).map(({ entry }) => session.resolve(entry).brdf);
+  const goesThrough = resolved.some(brdf => brdf instanceof FacetBrdf && brdf.transmits);
   return (
     <div class="scroll furnace" tabIndex={0}>
       <table>
@@ -29,7 +32,7 @@ export function FurnaceTable(props: { state: State; checked: (brdf: Brdf) => Che
               furnaces, viewer at θ<sub>o</sub> = {props.state.theta}°
             </th>
             <th colSpan={3}>reflected, red, green, blue [1]</th>
-            <th>transmitted, green [1]</th>
+            {goesThrough && <th>transmitted, green [1]</th>}
             <th>white furnace</th>
             <th>weak furnace [1]</th>
             <th />
@@ -51,7 +54,7 @@ export function FurnaceTable(props: { state: State; checked: (brdf: Brdf) => Che
                     {number(furnace?.reflected[k])}
                   </td>
                 ))}
-                <td>{number(furnace?.transmitted[1])}</td>
+                {goesThrough && <td>{number(furnace?.transmitted[1])}</td>}
                 <td>{furnace ? verdict(furnace.deviation, furnace.allowed) : "…"}</td>
                 <td data-value="weak">{furnace ? number(furnace.weak, 7) : "…"}</td>
                 <td>{furnace ? verdict(Math.abs(furnace.weak - 1), furnace.allowedWeak) : ""}</td>

@@ -119,7 +119,7 @@ export function Lobe({ state }: { state: State }): JSX.Element {
     const shift = [(2 * view.centre[0]) / size.width - 1, 1 - (2 * view.centre[1]) / size.height];
     const surfaces: Surface[] = shown
       .slice()
-      .sort((a, b) => a.mesh.largest - b.mesh.largest)
+      .sort((a, b) => b.mesh.largest - a.mesh.largest)
       .map(({ mesh, place }) => ({
         positions: mesh.positions,
         size: 1 / largest,

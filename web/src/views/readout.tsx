@@ -44,8 +44,7 @@ export function readoutValues(brdf: Brdf, wi: Vector, wo: Vector): Values {
   if (!(brdf instanceof FacetBrdf)) return { f, fcos };
   const h = [wi[0] + wo[0], wi[1] + wo[1], wi[2] + wo[2]],
     length = Math.hypot(h[0], h[1], h[2]);
-  const terms =
-    brdf.hasTerms && length > 1e-9 ? { D: brdf.terms(h.map(x => x / length)).D, G1: brdf.terms(wo).G1 } : {};
+  const terms = brdf.hasTerms && length > 1e-9 ? { D: brdf.D(h.map(x => x / length)), G1: brdf.terms(wo).G1 } : {};
   return { f, fcos, ...(brdf.isDelta ? {} : { pdf: brdf.pdf(wis, wos)[0] }), ...terms };
 }
 
