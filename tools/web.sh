@@ -38,6 +38,7 @@ build()
 
 test_page()
 {
+    (cd web && npm run --silent check)
     mkdir -p build/junit
     FACET_PROGRAM=$(realpath "$1")/facet FACET_PAGE=$PWD/build/web FACET_SCREENSHOTS=$PWD/build/web-screenshots \
         FACET_JUNIT=$PWD/build/junit/web.xml \
@@ -46,7 +47,10 @@ test_page()
 
 case "${1:-}" in
 install) install ;;
-build) install && build "$2" ;;
+build)
+    install
+    build "$2"
+    ;;
 test) test_page "$2" ;;
 *) sed -n '2,6s/^# \{0,1\}//p' "$0" && exit 2 ;;
 esac
