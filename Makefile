@@ -17,7 +17,7 @@ includedir ?= $(prefix)/include
 datarootdir ?= $(prefix)/share
 mandir ?= $(datarootdir)/man
 
-.PHONY: help setup setup-check build demo install uninstall deb amalgamation test test-c test-python test-install bench format check \
+.PHONY: help setup setup-check build demo install uninstall deb amalgamation test test-c test-python web test-web test-install bench format check \
     sanitize tsan fuzz coverage clean
 
 help: ## this list
@@ -62,11 +62,24 @@ amalgamation: ## libfacet as one file, build/amalgamation/facet.c, and its heade
 test-install: deb ## install the packages into a fresh Debian 12 and use them (minutes)
 	@tests/packaging/test_install.sh build/deb
 
+# Where what the Python package and the explorer need cannot be had, their tests are left out, and what is missing is said.
 test: test-c ## build and run all tests (PRESET=dev)
 	@tools/test_python.sh --optional build/$(PRESET)
+	@if tools/setup.sh web && tools/web.sh install; then $(MAKE) --no-print-directory test-web; \
+	else echo "test: the explorer's tests are skipped: what they need is missing, see above"; fi
 
-test-c: build ## ... without those of the Python package
+test-c: build ## ... without those of the Python package and the explorer
 	ctest --preset $(PRESET) $(CTEST_FLAGS)
+
+web: ## build the explorer, a static page, in build/web
+	@tools/setup.sh web
+	cmake --preset $(PRESET)
+	$(BUILD) $(PRESET) -j $(JOBS) --target wasm glsl
+	@tools/web.sh build build/$(PRESET)
+
+test-web: web ## test the explorer in Chromium
+	$(BUILD) $(PRESET) -j $(JOBS) --target facet_program
+	@tools/web.sh test build/$(PRESET)
 
 test-python: build ## those of the Python package alone, which need PyPI
 	@tools/test_python.sh build/$(PRESET)

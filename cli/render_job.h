@@ -21,7 +21,7 @@ typedef struct render_options {
     const char *checkpoint, *resume, *shard, *events, *mpi;
     const char *aov, *oidn;
     option_number env_scale, time, noise, exposure, checkpoint_interval;
-    uint64_t max_memory; /* 0: the default */
+    uint64_t max_memory;             /* 0: the default */
     const char *serve, *serve_token; /* serve: "" for its default */
     bool half, quiet, json, denoise, allow_outside, serve_stay;
     const struct layer_choice *layers; /* what --aov and --denoise lead to */

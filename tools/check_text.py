@@ -10,8 +10,8 @@ import re
 import tree
 
 TEXT = (".c", ".h", ".py", ".sh", ".md", ".txt", ".cmake", ".json", ".map", ".supp", ".svg", ".yml", ".js", ".mjs",
-        ".html", ".glsl", ".gltf", ".clang-format", ".clang-tidy", ".gitignore", "Makefile", ".ci/run")
-SOURCES = (".c", ".h", ".py", ".sh", ".js", ".mjs", ".glsl")
+        ".ts", ".tsx", ".css", ".html", ".glsl", ".gltf", ".clang-format", ".clang-tidy", ".gitignore", "Makefile", ".ci/run")
+SOURCES = (".c", ".h", ".py", ".sh", ".js", ".mjs", ".ts", ".tsx", ".css", ".glsl")
 GENERATED = ("tests/data/", "tests/fuzz/corpus/", "bench/results/")
 TABS_ALLOWED = ("Makefile",)
 C_COLUMNS = 120

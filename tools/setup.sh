@@ -1,23 +1,26 @@
 #!/bin/sh
-# Installs the packages of tools/packages.txt that are missing: the group `build`, and with an argument that one, too.
+# Installs the packages of tools/packages.txt that are missing: the group `build` and those that are named.
 # When nothing is missing it needs neither network nor root.
 #
 # SPDX-License-Identifier: MIT
 set -eu
 
 list=$(dirname "$0")/packages.txt
-wanted=$(awk -v group="${1:-build}" '
-    /^\[/ { take = ($1 == "[build]" || $1 == "[" group "]"); next }
+wanted=$(awk -v groups=" $* " '
+    /^\[/ { gsub(/[][]/, "", $1); take = $1 == "build" || index(groups, " " $1 " "); next }
     { sub(/#.*/, "") }
     take && NF { print $1 }' "$list")
 
 if ! command -v dpkg-query >/dev/null 2>&1; then
-    echo "setup: this is not a Debian system: install what corresponds to" $wanted >&2
+    echo "setup: this is not a Debian system: install what corresponds to" $wanted | sed 's|/[a-z]*||g' >&2
     exit 1
 fi
 
 missing=
-for package in $wanted; do
+for entry in $wanted; do
+    package=${entry%/*} program=${entry#*/}
+    if [ "$program" != "$entry" ] && command -v "$program" >/dev/null 2>&1; then continue; fi
+    case " $missing " in *" $package "*) continue ;; esac
     state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2>/dev/null || true)
     [ "$state" = installed ] || missing="$missing $package"
 done

@@ -24,7 +24,7 @@ def files(root, suffixes=None):
     else:
         names = []
         for folder, folders, entries in os.walk(root):
-            folders[:] = [f for f in folders if f not in (".git", "build", "__pycache__")]
+            folders[:] = [f for f in folders if f not in (".git", "build", "__pycache__", "node_modules")]
             names += [os.path.relpath(os.path.join(folder, entry), root) for entry in entries]
     names = [name for name in names if os.path.isfile(os.path.join(root, name))]
     if suffixes:

@@ -69,6 +69,7 @@ static const struct {
     {"materials", "--json --help"},
     {"scenes", "--help"},
     {"info", "--json --help"},
+    {"explore", "--port --help"},
 };
 enum { N_HELPS = sizeof helps/sizeof *helps };
 
@@ -197,6 +198,7 @@ static const mistake mistakes[] = {
     {2, "terms needs --csv", {"terms", "ggx"}},
     {2, "there is no model `gggx`; did you mean `ggx`?", {"materials", "gggx"}},
     {2, "unexpected argument `x`", {"scenes", "x"}},
+    {2, "--port: `70000` is not", {"explore", "--port", "70000"}},
     {2, "compare needs A B", {"compare", "a.png"}},
     {2, "--metric: `ssim` is not one of mse|", {"compare", "a.png", "b.png", "--metric", "ssim"}},
     {2, "--diff: `d.exr` is not the name of a .png", {"compare", "a.png", "b.png", "--diff", "d.exr"}},

@@ -60,6 +60,8 @@ FAULTS = {
     "KERNEL real broken_pdf(broken_params p, real3 wi, real3 wo) { const real a = p.a; return a; }": "without const",
     "KERNEL real broken_pdf(broken_params p, real3 wi, real3 wo) { return p.b; }": "no field b",
     "KERNEL real broken_pdf(broken_params p, real3 wi, real3 wo) { return wi*p.a; }": "real.h",
+    "KERNEL real broken_pdf(broken_params p, real3 wi, real3 wo) "
+    "{ bsdf_sample s = p.a > 0 ? broken_sample(p, wi, wo) : broken_sample(p, wo, wi); return s.pdf; }": "WebGL",
 }
 HEAD = """#pragma once
 #include "bsdf.h"

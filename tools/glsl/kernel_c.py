@@ -26,7 +26,7 @@ MARKS = ("KERNEL", "LARGE_KERNEL", "UNROLL", "FACET_REAL_IS_DOUBLE")
 # How the C is compiled into loops, which a shader has none of: ONE_VARIANT(name), EVAL_AND_PDF(name).
 LOOPS_ONLY = ("ONE_VARIANT", "EVAL_AND_PDF")
 # Macros of the C library.
-LIBRARY = {"FLT_MAX": "3.40282347e+38f", "FLT_MIN": "1.17549435e-38f", "FLT_EPSILON": "1.1920929e-07f",
+LIBRARY = {"FLT_MAX": "3.40282346e+38f", "FLT_MIN": "1.17549435e-38f", "FLT_EPSILON": "1.1920929e-07f",
            "FACET_REAL_IS_DOUBLE": "0"}
 SCALARS = ("real", "int", "real_bits")
 

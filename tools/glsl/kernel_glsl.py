@@ -704,7 +704,29 @@ class Function:
             for kid in node.kids[1:]:
                 self.emit(kid, node.kids[0].type)
         elif node.kind == "return":
-            self.emit(node.kids[0], "bool" if self.item.name in self.whole.true_results else self.item.type)
+            self.write_return(node.token.start, node.kids[0])
+
+    def write_return(self, start, value):
+        """Edits `return value` that begins at `start`.  WebGL has no ?: of structs: one that is returned becomes
+        branches."""
+        whole = value
+        while value.becomes or (value.kind == "paren" and self.is_record(value.type)):
+            value = value.becomes or value.kids[0]
+        if value.kind != "choice" or not self.is_record(value.type):
+            self.emit(whole, "bool" if self.item.name in self.whole.true_results else self.item.type)
+            return
+        condition, first, second = value.kids
+        self.edits.replace(start, condition.start, "if " if condition.type != "bool" else "if (")
+        self.emit(condition, "bool")
+        self.edits.replace(condition.end, first.start, " return " if condition.type != "bool" else ") return ")
+        self.emit(first, self.item.type)
+        self.edits.replace(first.end, second.start, ";\n    ")
+        self.edits.wrap(second.start, second.end, "return ", "")
+        self.emit(second, self.item.type)
+        self.edits.replace(second.end, whole.end, "")
+
+    def is_record(self, kind):
+        return kind in self.whole.items and kind not in VECTORS
 
     def emit(self, node, wanted):
         """Edits an expression whose value is used as `wanted`."""
@@ -717,6 +739,8 @@ class Function:
         if node.kind == "literal":
             self.edits.replace(node.start, node.end, literal(node.op, wanted))
         elif node.kind == "choice":
+            if self.is_record(node.type):
+                self.source.fail(node.start, "WebGL has no ?: of records but in a return; write a function for it")
             self.emit(node.kids[0], "bool")
             for kid in node.kids[1:]:
                 self.emit(kid, wanted)

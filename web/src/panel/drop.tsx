@@ -1,0 +1,89 @@
+/* drop.tsx: files that are dropped anywhere on the page, or chosen; what is wrong with one is said.
+ *
+ * SPDX-License-Identifier: MIT */
+import type { JSX } from "preact";
+import { useEffect, useRef, useState } from "preact/hooks";
+import { openFile } from "../brdf/opened";
+import { useAround } from "../session";
+import { nextId } from "../state/state";
+import { IconButton } from "./icons";
+
+/** `open.current` lets the reader choose files. */
+export function Drop({ open }: { open: { current: () => void } }): JSX.Element {
+  const { session, store } = useAround();
+  const [isOver, setIsOver] = useState(false);
+  const [problems, setProblems] = useState<readonly string[]>([]);
+  const input = useRef<HTMLInputElement>(null);
+  open.current = () => input.current?.click();
+
+  const take = async (files: readonly File[]): Promise<void> => {
+    const wrong: string[] = [];
+    for (const file of files) {
+      try {
+        const text = session.addFile(await openFile(file, name => session.file(name))),
+          { state } = store,
+          id = nextId(state);
+        // Dropped again: entries that wait for it find it.
+        if (state.entries.some(entry => entry.text === text)) store.tell();
+        else store.step({ entries: [...state.entries, { id, text, isHidden: false }], selected: id });
+      } catch (error) {
+        wrong.push(error instanceof Error ? error.message : String(error));
+      }
+    }
+    setProblems(wrong);
+  };
+
+  useEffect(() => {
+    const over = (event: DragEvent): void => {
+      if (!event.dataTransfer?.types.includes("Files")) return;
+      event.preventDefault();
+      setIsOver(true);
+    };
+    const leave = (event: DragEvent): void => {
+      if (!event.relatedTarget) setIsOver(false);
+    };
+    const drop = (event: DragEvent): void => {
+      setIsOver(false);
+      if (!event.dataTransfer?.files.length) return;
+      event.preventDefault();
+      void take([...event.dataTransfer.files]);
+    };
+    addEventListener("dragover", over);
+    addEventListener("dragleave", leave);
+    addEventListener("drop", drop);
+    return () => {
+      removeEventListener("dragover", over);
+      removeEventListener("dragleave", leave);
+      removeEventListener("drop", drop);
+    };
+  }, []);
+  return (
+    <>
+      <input
+        ref={input}
+        type="file"
+        class="file-input"
+        accept=".brdf,.bparam,.binary"
+        multiple
+        tabIndex={-1}
+        aria-label="files"
+        onChange={event => {
+          const files = [...(event.currentTarget.files ?? [])];
+          event.currentTarget.value = "";
+          void take(files);
+        }}
+      />
+      {isOver && <div class="drop-here">Drop .brdf, .bparam and MERL .binary files here</div>}
+      {problems.length > 0 && (
+        <div class="message" role="alert">
+          <div>
+            {problems.map(problem => (
+              <p key={problem}>{problem}</p>
+            ))}
+          </div>
+          <IconButton name="remove" label="close the message" onClick={() => setProblems([])} />
+        </div>
+      )}
+    </>
+  );
+}

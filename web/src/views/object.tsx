@@ -1,0 +1,68 @@
+/* object.tsx: an object under light from all around; drag turns it.
+ *
+ * SPDX-License-Identifier: MIT */
+import type { JSX } from "preact";
+import { environmentMap } from "../brdf/environment";
+import { cameraAt } from "../gl/camera";
+import { ObjectRenderer } from "../gl/objects";
+import { shapeOf } from "../gl/shapes";
+import { useAround } from "../session";
+import type { State } from "../state/state";
+import { Tiles, type TileFrame, type TilePainter } from "./tiles";
+
+class Painter implements TilePainter {
+  private readonly renderer: ObjectRenderer;
+  state!: State;
+
+  constructor(private readonly gl: WebGL2RenderingContext) {
+    this.renderer = new ObjectRenderer(gl);
+  }
+
+  paint({ jobs, size, ratio }: TileFrame): boolean {
+    const { environment, object, turn, tilt, exposure } = this.state;
+    const tiles = jobs.map(({ box, brdf, shading }) => ({
+      x: (box.left + box.side / 2) * ratio,
+      y: (size.height - box.top - box.side / 2) * ratio,
+      side: box.side * ratio,
+      ...{ brdf, shading },
+    }));
+    const places = tiles.map(({ x, y, side, brdf }) => [x, y, side, brdf.text]);
+    const isDone = this.renderer.draw({
+      key: JSON.stringify([places, environment, object, turn, tilt]),
+      tiles,
+      shape: shapeOf(object),
+      environment: environmentMap(environment),
+      camera: cameraAt(turn, tilt),
+      exposure: 2 ** exposure,
+    });
+    (this.gl.canvas as HTMLCanvasElement).dataset.samples = String(this.renderer.samples);
+    return isDone;
+  }
+}
+
+export function LitObject({ state }: { state: State }): JSX.Element {
+  const { store } = useAround();
+  const turnBy = (across: number, down: number): void => {
+    const { turn, tilt } = store.state;
+    store.slide({ turn: (((turn - across) % 360) + 360) % 360, tilt: Math.min(90, Math.max(-90, tilt + down)) });
+  };
+  return (
+    <Tiles
+      state={state}
+      name="object"
+      label="lit objects; drag or arrow keys turn them"
+      make={gl => new Painter(gl)}
+      paintAgain={(painter, frame) => {
+        (painter as Painter).state = state;
+        return painter.paint(frame);
+      }}
+      drag={(dx, dy) => turnBy(0.5 * dx, 0.5 * dy)}
+      keys={event => {
+        const step = { ArrowLeft: [-5, 0], ArrowRight: [5, 0], ArrowUp: [0, -5], ArrowDown: [0, 5] }[event.key];
+        if (!step) return;
+        event.preventDefault();
+        turnBy(step[0], step[1]);
+      }}
+    />
+  );
+}

@@ -1,0 +1,142 @@
+/* page.test.mjs: the page starts, shows the library's own numbers, and keeps its state in the address.
+ *
+ * SPDX-License-Identifier: MIT */
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import { launch, open, screenshot, serve } from "./browser.mjs";
+import { draws, facet, models, randomSpec } from "./materials.mjs";
+
+let site, browser;
+before(async () => {
+  site = await serve();
+  browser = await launch();
+});
+after(async () => {
+  await browser.close();
+  site.close();
+});
+
+/** The page shows what its address says, once it has had two frames. */
+async function show(page, state) {
+  await page.evaluate(
+    hash =>
+      new Promise(resolve => {
+        location.hash = hash;
+        requestAnimationFrame(() => requestAnimationFrame(() => requestAnimationFrame(resolve)));
+      }),
+    state,
+  );
+}
+
+test("the first view has three materials and nothing to complain of", async t => {
+  const { page, complaints, close } = await open(browser, site.address);
+  await page.waitForSelector(".curve");
+  assert.equal(await page.locator(".entry").count(), 3);
+  assert.equal(await page.locator("path.curve").count(), 3);
+  const first = await page.evaluate(() => performance.getEntriesByName("facet-first-view")[0].startTime);
+  t.diagnostic(`first view ${first.toFixed(0)} ms after the navigation began`);
+  await screenshot(page, "curves-D-light");
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
+test("the numbers shown are those of facet eval for 100 random settings", async t => {
+  const draw = draws(7),
+    table = models(),
+    { page, complaints, close } = await open(browser, site.address);
+  for (let i = 0; i < 100; i++) {
+    const spec = randomSpec(table, draw),
+      angles = [89 * draw(), 360 * draw(), 90 * (2 * draw() - 1), 360 * draw() - 180].map(x => x.toFixed(3));
+    const fixed = draw() < 0.5 ? "viewer" : "light";
+    await show(
+      page,
+      new URLSearchParams({
+        m: spec,
+        theta: angles[0],
+        phi: angles[1],
+        theta2: angles[2],
+        phi2: angles[3],
+        fixed,
+      }).toString(),
+    );
+    const shown = await page.evaluate(() => ({
+      wi: document.querySelector(".directions").dataset.wi,
+      wo: document.querySelector(".directions").dataset.wo,
+      spec: document.querySelector(".spec").value,
+      cells: Object.fromEntries(
+        [...document.querySelectorAll(".readout [data-value]")].map(td => [td.dataset.value, td.textContent]),
+      ),
+    }));
+    assert.equal(shown.spec, spec);
+    const [names, values] = facet("eval", spec, "--wi", shown.wi, "--wo", shown.wo)
+      .trim()
+      .split("\n")
+      .map(line => line.split(","));
+    names.slice(6).forEach((name, k) => {
+      const expected = Number(values[6 + k]),
+        found = shown.cells[name] === "–" ? 0 : Number(shown.cells[name]);
+      // The same digits: both are the same operations on the same floats.
+      assert.equal(found, expected, `${spec} ${name}`);
+    });
+  }
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
+test("moving a slider changes the picture, the spec and the address", async () => {
+  const { page, close } = await open(browser, site.address, "m=ggx+alpha%3D.1");
+  const curve = () => page.locator("path.curve").getAttribute("d");
+  const before = await curve();
+  await page.getByRole("slider", { name: "alpha", exact: true }).focus();
+  await page.keyboard.press("PageUp");
+  await page.waitForFunction(old => document.querySelector("path.curve").getAttribute("d") !== old, before);
+  const spec = await page.locator(".spec").inputValue();
+  assert.match(spec, /^ggx alpha=0\.\d+$/);
+  await page.waitForFunction(text => new URLSearchParams(location.hash.slice(1)).get("m") === text, spec);
+  await page.locator("[data-parameter=alpha] .name").dblclick();
+  await page.waitForFunction(() => document.querySelector(".spec").value === "ggx");
+  await close();
+});
+
+test("what the library refuses is said where it was typed", async () => {
+  const { page, close } = await open(browser, site.address, "m=ggx");
+  await page.locator(".spec").fill("ggx alpha=7");
+  await page.keyboard.press("Enter");
+  await page.getByRole("alert").waitFor();
+  assert.match(await page.getByRole("alert").textContent(), /^alpha: .*out of range/);
+  await close();
+});
+
+test("parameters that exclude each other replace each other", async () => {
+  const { page, close } = await open(browser, site.address, "m=ggx+alpha%3D.2+ior%3D1.7");
+  const typed = page.locator("[data-parameter=ks] .typed");
+  await typed.fill(".9,.7,.3");
+  await typed.press("Enter");
+  await page.waitForFunction(() => document.querySelector(".spec").value === "ggx alpha=0.2 ks=0.9,0.7,0.3");
+  await close();
+});
+
+test("an address survives a reload, and going back", async () => {
+  const state = "m=ggx+alpha%3D.2&m=-lambert&view=curves&of=fcos&scale=linear&polar=1&theta=60";
+  const { page, complaints, close } = await open(browser, site.address, state);
+  await page.waitForSelector(".curve");
+  assert.equal(await page.locator(".entry.is-hidden").count(), 1);
+  await page.getByRole("radio", { name: "Cartesian" }).check({ force: true });
+  await page.waitForFunction(() => !location.hash.includes("polar"));
+  const address = page.url();
+  await page.reload();
+  await page.waitForSelector(".curve");
+  assert.equal(page.url(), address);
+  assert.equal(await page.getByRole("radio", { name: "Cartesian" }).isChecked(), true);
+  await page.goBack();
+  await page.waitForFunction(() => document.querySelector("input[value=polar]").checked);
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
+test("facet explore says where the page is", { skip: !process.env.FACET_PROGRAM && "needs the program" }, () => {
+  const [page, serve, address] = facet("explore", "--port", "9123").trim().split("\n");
+  assert.equal(page, `page:  ${process.env.FACET_PAGE}/index.html`);
+  assert.match(serve, /^serve: .* 127\.0\.0\.1 .* 9123$/);
+  assert.equal(address, "open:  http://127.0.0.1:9123/");
+});
