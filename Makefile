@@ -44,14 +44,15 @@ demo: setup ## build the program and render the built-in scene to facet.png
 	@echo "the picture: $(CURDIR)/facet.png"
 
 install: ## install below prefix=/usr/local (also bindir, libdir, includedir, datarootdir, mandir, DESTDIR)
-	cmake --preset release -DCMAKE_INSTALL_PREFIX=$(prefix) -DCMAKE_INSTALL_BINDIR=$(bindir) \
+	cmake --preset release -B build/install -DFACET_TESTS=OFF \
+	    -DCMAKE_INSTALL_PREFIX=$(prefix) -DCMAKE_INSTALL_BINDIR=$(bindir) \
 	    -DCMAKE_INSTALL_LIBDIR=$(libdir) -DCMAKE_INSTALL_INCLUDEDIR=$(includedir) \
 	    -DCMAKE_INSTALL_DATAROOTDIR=$(datarootdir) -DCMAKE_INSTALL_MANDIR=$(mandir)
-	$(BUILD) release -j $(JOBS)
-	DESTDIR=$(DESTDIR) cmake --install build/release
+	cmake --build build/install -j $(JOBS)
+	DESTDIR=$(DESTDIR) cmake --install build/install
 
 uninstall: ## remove what the last `make install` installed
-	sed 's|^|$(DESTDIR)|' build/release/install_manifest.txt | xargs -d '\n' rm -f
+	sed 's|^|$(DESTDIR)|' build/install/install_manifest.txt | xargs -d '\n' rm -f
 
 deb: setup-package ## Debian packages in build/deb
 	@tools/make_deb.sh build/deb
