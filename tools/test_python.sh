@@ -59,7 +59,8 @@ prebuilt=
 [ ! -f "$build/libfacet.a" ] || prebuilt=$build/libfacet.a
 rm -rf "$here/wheel"
 "$here/newest/bin/pip" --disable-pip-version-check wheel -q --no-build-isolation --no-deps -w "$here/wheel" \
-    -C build-dir=build/python/tests -C cmake.define.FACET_PREBUILT="$prebuilt" -C cmake.define.FACET_WERROR=ON .
+    --config-settings=build-dir=build/python/tests --config-settings=cmake.define.FACET_PREBUILT="$prebuilt" \
+    --config-settings=cmake.define.FACET_WERROR=ON .
 
 if [ -x "$build/facet" ]; then
     FACET=$build/facet
