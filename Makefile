@@ -98,6 +98,7 @@ check: setup-check ## layout, structure and static analysis
 	@tools/format.py --check
 	@tools/check_all.sh
 	@tools/analyse.sh
+	@if command -v npm >/dev/null 2>&1; then tools/web.sh check; fi
 
 sanitize: setup-check ## all tests under AddressSanitizer and UndefinedBehaviorSanitizer
 	cmake --preset sanitize

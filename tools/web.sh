@@ -1,6 +1,7 @@
 #!/bin/sh
 # Builds and tests the explorer.
 #     tools/web.sh install             the npm packages of web/package-lock.json, where they are not there
+#     tools/web.sh check               types and layout of web/
 #     tools/web.sh build FOLDER        build/web, from FOLDER/facet.wasm and FOLDER/glsl
 #     tools/web.sh test FOLDER         the tests of build/web in Chromium, against FOLDER/facet; build/junit/web.xml
 #
@@ -36,9 +37,14 @@ build()
     echo "web: the page is build/web/index.html; any static server shows it"
 }
 
-test_page()
+check()
 {
     (cd web && npm run --silent check)
+}
+
+test_page()
+{
+    check
     mkdir -p build/junit
     FACET_PROGRAM=$(realpath "$1")/facet FACET_PAGE=$PWD/build/web FACET_SCREENSHOTS=$PWD/build/web-screenshots \
         FACET_JUNIT=$PWD/build/junit/web.xml \
@@ -47,10 +53,14 @@ test_page()
 
 case "${1:-}" in
 install) install ;;
+check)
+    install
+    check
+    ;;
 build)
     install
     build "$2"
     ;;
 test) test_page "$2" ;;
-*) sed -n '2,6s/^# \{0,1\}//p' "$0" && exit 2 ;;
+*) sed -n '2,7s/^# \{0,1\}//p' "$0" && exit 2 ;;
 esac
