@@ -71,8 +71,8 @@ typedef struct render_settings {
     double noise_target; /* stop at this estimated relative error; 0: none */
     /* Called on the calling thread about ten times a second; false asks for an early end.  May be NULL. */
     bool (*progress)(void *user, const render_progress *state);
-    /* Called on the calling thread every save_interval [s], when wants_save says so (asked about ten times a second; may
-     * be NULL), and when rendering ends, while no thread works.  May be NULL. */
+    /* Called on the calling thread every save_interval [s], when wants_save says so (asked about ten times a second;
+     * may be NULL), and when rendering ends, while no thread works.  May be NULL. */
     void (*save)(void *user, const render_state *state);
     double save_interval;
     bool (*wants_save)(void *user);
