@@ -3,7 +3,8 @@
  *
  *     mpirun -n 3 build/release/bench/messages
  *
- * Built where MPI is.  SPDX-License-Identifier: MIT */
+ * Built where MPI is.
+ * SPDX-License-Identifier: MIT */
 #include <mpi.h>
 #include <stdint.h>
 #include <stdio.h>

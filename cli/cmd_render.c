@@ -355,8 +355,8 @@ static const option options[] = {
      "line; - is stderr",
      0, 0, NULL},
     {"serve", 0, OPTION_PLACE, AT(serve), "[[ADDRESS:]PORT]",
-     "show the picture as it refines on a page, for this machine alone at http://127.0.0.1:8642/ unless told otherwise; "
-     "0 is any free port",
+     "show the picture as it refines on a page, for this machine alone at http://127.0.0.1:8642/ unless told "
+     "otherwise; 0 is any free port",
      0, 0, NULL},
     {"serve-token", 0, OPTION_TEXT, AT(serve_token), "FILE",
      "let only those see the page who have the token in FILE; an ADDRESS that other machines reach needs it", 0, 0,
@@ -376,13 +376,16 @@ const command render_command = {
         "whole; one without any light stands in a uniform white environment.\n"
         "Interrupted (Ctrl-C, SIGTERM or SIGHUP), it writes what it has and exits with status 130; a second signal\n"
         "ends it at once.  With --checkpoint FILE --resume FILE, one command starts a render and goes on with it.\n"
+        "Started by mpirun, N processes share the render: the picture has the same bits on any number of them.\n"
         "Outputs are checked before rendering, written beside and renamed, and carry their provenance (version,\n"
         "command line, scene hash, seed, ...) as metadata.\n",
     .examples = "  facet render\n"
                 "  facet render scene.glb -o scene.exr -o scene.png --spp 256 --size 1280x720\n"
                 "  facet render scene.gltf --env studio.hdr --material body='ggx alpha=.1 ks=.9,.7,.3' --time 60\n"
                 "  facet render scene.glb --spp 1024 --checkpoint scene.ckpt --resume scene.ckpt\n"
-                "  facet render scene.glb --spp 1024 --shard 3/16 --checkpoint part3.ckpt --resume part3.ckpt\n",
+                "  facet render scene.glb --spp 1024 --shard 3/16 --checkpoint part3.ckpt --resume part3.ckpt\n"
+                "  facet render scene.glb --time 600 --serve\n"
+                "  mpirun -n 16 facet render scene.glb --spp 1024 -o scene.exr\n",
     .options = options,
     .n_options = sizeof options/sizeof *options,
     .run = run,

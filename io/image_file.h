@@ -73,7 +73,8 @@ facet_status exr_write_layers(const char *path, const exr_layer *layers, size_t 
 facet_status png_write(const char *path, const image *picture, const image_text *text, size_t n_texts,
                        facet_error *why);
 
-/* The same into memory, without texts and compressed a little: a picture that is shown once.  The caller frees *bytes. */
+/* The same into memory, without texts and compressed a little: a picture that is shown once.  The caller frees
+ * *bytes. */
 facet_status png_encode(const image *picture, char **bytes, size_t *size, facet_error *why);
 
 #ifdef __cplusplus

@@ -74,8 +74,8 @@ typedef struct render_settings {
     bool keeps_features; /* albedo, normal and distance of what is seen first, beside the radiance */
     /* Called on the calling thread about ten times a second; false asks for an early end.  May be NULL. */
     bool (*progress)(void *user, const render_progress *state);
-    /* Called on the calling thread every save_interval [s], when wants_save says so (asked about ten times a second; may
-     * be NULL), and when rendering ends, while no thread works.  May be NULL. */
+    /* Called on the calling thread every save_interval [s], when wants_save says so (asked about ten times a second;
+     * may be NULL), and when rendering ends, while no thread works.  May be NULL. */
     void (*save)(void *user, const render_state *state);
     double save_interval;
     bool (*wants_save)(void *user);

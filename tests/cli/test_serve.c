@@ -1,5 +1,5 @@
-/* test_serve.c: `facet render --serve` as browsers, scripts and strangers meet it, over raw HTTP; and the folder server.
- * Skipped where facet was built without civetweb.
+/* test_serve.c: `facet render --serve` as browsers, scripts and strangers meet it, over raw HTTP; and the server of
+ * folders.  Skipped where facet was built without civetweb.
  * SPDX-License-Identifier: MIT */
 #include <arpa/inet.h>
 #include <netinet/in.h>

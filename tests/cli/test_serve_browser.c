@@ -1,5 +1,5 @@
-/* test_serve_browser.c: the page of `facet render --serve` in headless Chromium: what it says and what it looks like, in
- * light and dark.  Skipped where there is no Chromium, or facet was built without civetweb.
+/* test_serve_browser.c: the page of `facet render --serve` in headless Chromium: what it says and what it looks like,
+ * in light and dark.  Skipped where there is no Chromium, or facet was built without civetweb.
  * SPDX-License-Identifier: MIT */
 #include <setjmp.h>
 #include <signal.h>
