@@ -8,6 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include "cli/ranks_module.h"
@@ -147,11 +148,23 @@ static void part(void)
         while (rank > 0) pause(); /* until the leader ends the job */
 }
 
+/* MPI_Abort loses what is still on its way to the terminal: the pipes must be empty, and mpirun's helper, which passes
+ * on what it has read, gets some time for that. */
+static void drain(void)
+{
+    for (int stream = STDOUT_FILENO; stream <= STDERR_FILENO; stream++) {
+        int n_left = 0;
+        for (int i = 0; i < 1000 && ioctl(stream, FIONREAD, &n_left) == 0 && n_left > 0; i++) usleep(1000);
+    }
+    usleep(200000);
+}
+
 static void end(int status)
 {
     part();
     if (!is_under_way()) return;
     fflush(NULL);
+    drain();
     if (!freopen("/dev/null", "w", stderr)) return; /* MPI_Abort would tell of itself */
     MPI_Abort(MPI_COMM_WORLD, status);
 }
