@@ -1,5 +1,5 @@
-/* many_triangles.c: what a picture of many triangles costs, from its file on: a ball with bumps in a box, in 10^4 to 10^7
- * triangles, as .glb in the temporary folder.
+/* many_triangles.c: what a picture of many triangles costs, from its file on: a ball with bumps in a box, in 10^4 to
+ * 10^7 triangles, as .glb in the temporary folder.
  *
  *     many_triangles [--csv FILE] [--quick]
  *
@@ -49,7 +49,8 @@ static void write_glb(const scene *s, const char *path)
     FILE *file = fopen(path, "wb");
     if (!file) check(FACET_IO, path);
 #define PUT(...) length += (size_t)snprintf(text + length, sizeof text - length, __VA_ARGS__)
-    PUT("{\"asset\":{\"version\":\"2.0\"},\"extensionsUsed\":[\"FACET_materials_bsdf\",\"KHR_materials_emissive_strength\"],"
+    PUT("{\"asset\":{\"version\":\"2.0\"},"
+        "\"extensionsUsed\":[\"FACET_materials_bsdf\",\"KHR_materials_emissive_strength\"],"
         "\"scene\":0,\"scenes\":[{\"nodes\":[");
     for (size_t i = 0; i <= s->n_meshes; i++) PUT("%zu%s", i, i < s->n_meshes ? "," : "]}],\"nodes\":[");
     for (size_t i = 0; i < s->n_meshes; i++) PUT("{\"mesh\":%zu},", i);
@@ -68,7 +69,8 @@ static void write_glb(const scene *s, const char *path)
             2*i, 2*i + 1, s->meshes[i].material);
     PUT("],\"accessors\":[");
     for (size_t i = 0; i < s->n_meshes; i++)
-        PUT("%s{\"bufferView\":%zu,\"componentType\":5126,\"type\":\"VEC3\",\"count\":%zu,\"min\":[-1,0,-1],\"max\":[1,2,1]},"
+        PUT("%s{\"bufferView\":%zu,\"componentType\":5126,\"type\":\"VEC3\",\"count\":%zu,"
+            "\"min\":[-1,0,-1],\"max\":[1,2,1]},"
             "{\"bufferView\":%zu,\"componentType\":5125,\"type\":\"SCALAR\",\"count\":%zu}",
             i ? "," : "", 2*i, s->meshes[i].n_vertices, 2*i + 1, 3*s->meshes[i].n_triangles);
     PUT("],\"bufferViews\":[");

@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: MIT */
 import assert from "node:assert/strict";
+import { spawn } from "node:child_process";
 import { after, before, test } from "node:test";
 import { launch, open, screenshot, serve } from "./browser.mjs";
 import { draws, facet, models, randomSpec } from "./materials.mjs";
@@ -134,9 +135,19 @@ test("an address survives a reload, and going back", async () => {
   await close();
 });
 
-test("facet explore says where the page is", { skip: !process.env.FACET_PROGRAM && "needs the program" }, () => {
-  const [page, serve, address] = facet("explore", "--port", "9123").trim().split("\n");
-  assert.equal(page, `page:  ${process.env.FACET_PAGE}/index.html`);
-  assert.match(serve, /^serve: .* 127\.0\.0\.1 .* 9123$/);
-  assert.equal(address, "open:  http://127.0.0.1:9123/");
+test("facet explore serves the page to this machine", { skip: !process.env.FACET_PROGRAM && "needs the program" }, async t => {
+  assert.equal(facet("explore", "--path").trim(), process.env.FACET_PAGE);
+  const program = spawn(process.env.FACET_PROGRAM, ["explore", "--port", "0", "--no-open"]);
+  const ended = new Promise(resolve => program.on("exit", resolve));
+  const address = await new Promise((resolve, reject) => {
+    program.stdout.once("data", text => resolve(String(text).trim()));
+    program.on("exit", () => reject(new Error("it ended: " + program.stderr.read())));
+  });
+  assert.match(address, /^http:\/\/127\.0\.0\.1:\d+\/$/);
+  const { page, complaints, close } = await open(browser, address);
+  await page.waitForSelector(".curve");
+  assert.deepEqual(complaints, []);
+  await close();
+  program.kill("SIGINT");
+  assert.equal(await ended, 0);
 });
