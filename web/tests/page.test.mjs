@@ -135,19 +135,23 @@ test("an address survives a reload, and going back", async () => {
   await close();
 });
 
-test("facet explore serves the page to this machine", { skip: !process.env.FACET_PROGRAM && "needs the program" }, async t => {
-  assert.equal(facet("explore", "--path").trim(), process.env.FACET_PAGE);
-  const program = spawn(process.env.FACET_PROGRAM, ["explore", "--port", "0", "--no-open"]);
-  const ended = new Promise(resolve => program.on("exit", resolve));
-  const address = await new Promise((resolve, reject) => {
-    program.stdout.once("data", text => resolve(String(text).trim()));
-    program.on("exit", () => reject(new Error("it ended: " + program.stderr.read())));
-  });
-  assert.match(address, /^http:\/\/127\.0\.0\.1:\d+\/$/);
-  const { page, complaints, close } = await open(browser, address);
-  await page.waitForSelector(".curve");
-  assert.deepEqual(complaints, []);
-  await close();
-  program.kill("SIGINT");
-  assert.equal(await ended, 0);
-});
+test(
+  "facet explore serves the page to this machine",
+  { skip: !process.env.FACET_PROGRAM && "needs the program" },
+  async t => {
+    assert.equal(facet("explore", "--path").trim(), process.env.FACET_PAGE);
+    const program = spawn(process.env.FACET_PROGRAM, ["explore", "--port", "0", "--no-open"]);
+    const ended = new Promise(resolve => program.on("exit", resolve));
+    const address = await new Promise((resolve, reject) => {
+      program.stdout.once("data", text => resolve(String(text).trim()));
+      program.on("exit", () => reject(new Error("it ended: " + program.stderr.read())));
+    });
+    assert.match(address, /^http:\/\/127\.0\.0\.1:\d+\/$/);
+    const { page, complaints, close } = await open(browser, address);
+    await page.waitForSelector(".curve");
+    assert.deepEqual(complaints, []);
+    await close();
+    program.kill("SIGINT");
+    assert.equal(await ended, 0);
+  },
+);
