@@ -161,7 +161,7 @@ static int render_scene(render_options *o, warning_list *warnings, int status, c
 {
     facet_error why = {0};
     scene *s = NULL;
-    render_settings r;
+    render_settings r = {0};
     render_state state = {0};
     render_result result = {0};
     watch w = {.progress = progress_start(o->quiet), .events = warnings->events};

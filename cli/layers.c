@@ -14,15 +14,15 @@ enum { NOISY = -1 }; /* the picture before denoising, in place of a film_layer *
 
 static const struct {
     const char *name;
-    int layer;
     const char *channels[4];
+    int layer;
     bool keeps_precision; /* float in spite of --half */
 } aovs[MOST_AOVS] = {
-    {"albedo", FILM_ALBEDO, {"albedo.R", "albedo.G", "albedo.B"}, false},
-    {"normal", FILM_NORMAL, {"normal.X", "normal.Y", "normal.Z"}, false},
-    {"distance", FILM_DISTANCE, {"distance"}, true},
-    {"samples", FILM_SAMPLES, {"samples"}, true},
-    {"noisy", NOISY, {"noisy.R", "noisy.G", "noisy.B"}, false},
+    {"albedo", {"albedo.R", "albedo.G", "albedo.B"}, FILM_ALBEDO, false},
+    {"normal", {"normal.X", "normal.Y", "normal.Z"}, FILM_NORMAL, false},
+    {"distance", {"distance"}, FILM_DISTANCE, true},
+    {"samples", {"samples"}, FILM_SAMPLES, true},
+    {"noisy", {"noisy.R", "noisy.G", "noisy.B"}, NOISY, false},
 };
 
 static bool is_wanted(const layer_choice *choice, int i)

@@ -92,7 +92,7 @@ facet_status sky_create(const environment *e, bool is_compensated, sky *result, 
     if (!e->map.pixels) return FACET_OK;
     const size_t w = e->map.width, h = e->map.height;
     if (w*h > UINT32_MAX/2) return facet_error_set(why, FACET_UNSUPPORTED, "environment", "more than 2^31 texels");
-    double *weights = malloc(w*h*sizeof *weights);
+    double *weights = calloc(w*h, sizeof *weights);
     if (!weights) return facet_error_set(why, FACET_NO_MEMORY, "environment", "no memory for its sampling table");
     double sum = 0, solid_sum = 0;
     for (size_t y = 0; y < h; y++) {
