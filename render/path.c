@@ -67,7 +67,7 @@ void path_batch_run(path_batch *batch, const path_context *c, tile where, uint32
         }
         stage_trace(batch, c, list, event == 0, counts);
         stage_meet(batch, c, list, event >= c->settings->depth);
-        stage_connect(batch, c, list, group, counts);
+        stage_connect(batch, c, group, counts);
         stage_scatter(batch, c, list, event + 1, group, next);
     }
     deposit(batch, c, where, sample_index, to, counts);

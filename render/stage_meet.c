@@ -128,28 +128,46 @@ static void expect(const path_batch *batch, const path_context *c, uint32_t k, u
     }
 }
 
+/* Path i has met a surface that scatters. */
+static void add_vertex(path_batch *batch, const path_list *list, uint32_t i, const surface *at, real3 wo)
+{
+    vertex_list *v = &batch->vertices;
+    const uint32_t k = v->n++;
+    v->path[k] = i;
+    v->slot[k] = list->slot[i];
+    v->pixel[k] = list->pixel[i];
+    v->index[k] = list->index[i];
+    v->chance[k] = batch->chance[1][i];
+    copy3(&v->throughput, k, &list->throughput, i);
+    v->eta_scale[k] = list->eta_scale[i];
+    set3(&v->position, k, at->position);
+    set3(&v->normal, k, at->normal);
+    v->offset[k] = at->offset;
+    set3(&v->t, k, at->shading.t);
+    set3(&v->b, k, at->shading.b);
+    set3(&v->up, k, at->shading.n);
+    v->facing[k] = dot3(at->normal, wo);
+    v->transmits[k] = at->transmits ? UINT32_MAX : 0;
+    v->bsdf[k] = at->bsdf;
+    set3(&v->wo, k, to_local(&at->shading, wo));
+}
+
 /* The surfaces that paths have met: their emission is gathered, and those that scatter become vertices. */
 void stage_meet(path_batch *batch, const path_context *c, const path_list *list, bool is_last)
 {
     vertex_list *v = &batch->vertices;
     const uint32_t n_hits = sort_by_material(batch, c, list);
-    uint32_t n = 0;
+    v->n = 0;
     for (uint32_t k = 0; k < n_hits; k++) {
         const uint32_t i = batch->order[k];
         const ray r = get_ray(&list->ray, i);
         const hit h = hit_at(batch, i);
         const real3 wo = neg3(vector_of(r.direction));
-        surface *at = &v->at[n];
+        surface at;
         expect(batch, c, k, n_hits);
-        surface_find(c->surfaces, &r, &h, wo, fraction(batch->chance[0][i]), &v->own[n], at);
-        gather_emission(batch, c, list, i, at);
-        if (c->keeps_features) feature_of_surface(batch, list, i, at);
-        if (!at->scatters || is_last) continue;
-        set3(&v->wo, n, to_local(&at->shading, wo));
-        v->path[n] = i;
-        v->pixel[n] = list->pixel[i];
-        v->index[n] = list->index[i];
-        n++;
+        surface_find(c->surfaces, &r, &h, wo, fraction(batch->chance[0][i]), &v->own[v->n], &at);
+        gather_emission(batch, c, list, i, &at);
+        if (c->keeps_features) feature_of_surface(batch, list, i, &at);
+        if (at.scatters && !is_last) add_vertex(batch, list, i, &at, wo);
     }
-    v->n = n;
 }

@@ -343,8 +343,3 @@ void surface_expect_vertices(const surface_set *set, const hit *h)
         if (m->normals) __builtin_prefetch(&m->normals[vertex]);
     }
 }
-
-real3 surface_leave(const surface *at, real3 direction)
-{
-    return madd3(at->position, dot3(direction, at->normal) > 0 ? at->offset : -at->offset, at->normal);
-}

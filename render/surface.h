@@ -56,7 +56,15 @@ real3 surface_emission(const scene *s, const mesh *m, uint32_t triangle, float u
 float surface_opacity(const void *user, uint32_t mesh_index, uint32_t triangle, float u, float v);
 
 /* A point just off the surface on the side that `direction` leaves to. */
-real3 surface_leave(const surface *at, real3 direction);
+static inline real3 leave_surface(real3 position, real3 normal, float offset, real3 direction)
+{
+    return madd3(position, dot3(direction, normal) > 0 ? offset : -offset, normal);
+}
+
+static inline real3 surface_leave(const surface *at, real3 direction)
+{
+    return leave_surface(at->position, at->normal, at->offset, direction);
+}
 
 #ifdef __cplusplus
 }
