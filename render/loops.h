@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "render/lanes.h"
 #include "render/light_triangle.h"
 #include "render/lights.h"
 #include "render/linear.h"
@@ -16,8 +17,6 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-
-enum { LOOP_LANES = 64 };
 
 struct vertex_list; /* stages.h */
 
@@ -29,6 +28,8 @@ typedef struct render_loops {
     /* The group's three numbers for n streams, as 32-bit fractions. */
     void (*points)(const sampler *s, size_t n, const uint32_t *pixel, const uint32_t *index, uint32_t group,
                    uint32_t *const u[3]);
+    /* Vertices from `first`, the first of a block, on: those in the block's hits; wi: wo in world space. */
+    void (*meet)(struct vertex_list *v, size_t first, plain_block *block);
     /* For each of n points one of the triangles, and a point on it; lights.h. */
     void (*light)(uint32_t n_triangles, const light_triangle *triangles, size_t n, vectors from, uint32_t *const u[3],
                   light_samples s);

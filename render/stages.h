@@ -111,6 +111,7 @@ struct path_batch {
     uint32_t instance[ROOM], primitive[ROOM];
     uint32_t chance[3][ROOM];
     vertex_list vertices;
+    plain_block plain; /* vertices whose surfaces are still to be found */
     shadow_list shadows;
     uint32_t material[ROOM], order[ROOM]; /* of what the paths met; the paths by it */
     uint32_t *n_of_material;              /* counts, then places, of one more than the scene's materials */
@@ -221,9 +222,12 @@ void stage_scatter(path_batch *batch, const path_context *c, const path_list *li
 /* Of paths that have just begun. */
 void feature_start(path_batch *batch, uint32_t n);
 
-/* Path i of the list has met the sky, or a surface. */
+/* Path i of the list has met the sky, or a surface where it ends. */
 void feature_of_sky(path_batch *batch, const path_list *list, uint32_t i, real3 radiance);
 void feature_of_surface(path_batch *batch, const path_list *list, uint32_t i, const surface *at);
+
+/* Vertex k has been found. */
+void feature_of_vertex(path_batch *batch, const path_list *list, uint32_t k);
 
 /* Vertex k has been given a direction. */
 void feature_of_scattering(path_batch *batch, const path_list *list, uint32_t k);

@@ -16,6 +16,8 @@ typedef struct placement {
     float column; /* the largest factor by which a coordinate grows */
     float offset; /* the largest coordinate of its origin */
     const mesh *mesh;
+    bool is_plain;     /* surface.h */
+    bool is_one_sided; /* not drawn from behind */
 } placement;
 
 typedef struct shared_shading {
@@ -49,13 +51,24 @@ static shared_shading shading_of(const material *mat)
     return (shared_shading){.is_uniform = true, .bsdf = reflection_of(mat, base, mat->metallic, mat->roughness)};
 }
 
-static placement placement_of(const scene *s, const instance *in)
+static bool is_plain(const mesh *m, const material *mat, const shared_shading *shading)
 {
+    return shading->is_uniform && mat->normal_texture.texture == NONE && !(max_of3(vector_of(mat->emission)) > 0) &&
+           !m->normals && !m->tangents && !m->uv[0] && !m->colors;
+}
+
+static placement placement_of(const surface_set *set, const instance *in)
+{
+    const mesh *m = &set->scene->meshes[in->mesh];
+    const material *mat = &set->scene->materials[m->material];
     const real3 x = map_column(in->to_world, 0), y = map_column(in->to_world, 1), z = map_column(in->to_world, 2);
     return (placement){.sign = map_determinant(in->to_world) < 0 ? -1.0f : 1.0f,
                        .column = kmax(max_abs3(x), kmax(max_abs3(y), max_abs3(z))),
                        .offset = max_abs3(map_column(in->to_world, 3)),
-                       .mesh = &s->meshes[in->mesh]};
+                       .mesh = m,
+                       .is_plain = is_plain(m, mat, &set->shadings[m->material]),
+                       .is_one_sided =
+                           !mat->is_double_sided && !(mat->transmission > 0) && mat->kind != SURFACE_BSDF};
 }
 
 facet_status surface_set_create(const scene *s, surface_set **result)
@@ -69,8 +82,8 @@ facet_status surface_set_create(const scene *s, surface_set **result)
         surface_set_destroy(set);
         return FACET_NO_MEMORY;
     }
-    for (size_t i = 0; i < s->n_instances; i++) set->placements[i] = placement_of(s, &s->instances[i]);
     for (size_t i = 0; i < s->n_materials; i++) set->shadings[i] = shading_of(&s->materials[i]);
+    for (size_t i = 0; i < s->n_instances; i++) set->placements[i] = placement_of(set, &s->instances[i]);
     *result = set;
     return FACET_OK;
 }
@@ -325,6 +338,48 @@ void surface_find(const surface_set *set, const ray *r, const hit *h, real3 wo, 
         const real3 near = madd3(vector_of(r->origin), h->t, vector_of(r->direction));
         find_on_sphere(set, h, wo, near, choice, own, at);
     }
+}
+
+plain_surface surface_plain(const surface_set *set, const hit *h)
+{
+    if (h->instance >= set->scene->n_instances) return (plain_surface){.bsdf = NULL};
+    const placement *placed = &set->placements[h->instance];
+    if (!placed->is_plain) return (plain_surface){.bsdf = NULL};
+    const shared_shading *shading = &set->shadings[placed->mesh->material];
+    return (plain_surface){&shading->bsdf, shading->transmits};
+}
+
+void surface_load_plain(const surface_set *set, const hit *h, plain_block *block, uint32_t lane)
+{
+    const placement *placed = &set->placements[h->instance];
+    const mesh *m = placed->mesh;
+    const uint32_t *triangle = m->triangles[h->primitive];
+    for (int corner = 0; corner < 3; corner++)
+        for (int k = 0; k < 3; k++) block->corners[corner][k][lane] = m->positions[triangle[corner]][k];
+    block->u[lane] = h->u;
+    block->v[lane] = h->v;
+    block->is_there[lane] = UINT32_MAX;
+    if (block->instance[lane] == h->instance + 1) return;
+    block->instance[lane] = h->instance + 1;
+    const instance *in = &set->scene->instances[h->instance];
+    for (int row = 0; row < 3; row++)
+        for (int k = 0; k < 4; k++) block->to_world[row][k][lane] = in->to_world[row][k];
+    block->sign[lane] = placed->sign;
+    block->column[lane] = placed->column;
+    block->offset[lane] = placed->offset;
+}
+
+bool surface_is_hidden(const surface_set *set, const hit *h, real3 direction)
+{
+    if (h->instance >= set->scene->n_instances || !set->placements[h->instance].is_one_sided) return false;
+    const placement *placed = &set->placements[h->instance];
+    const mesh *m = placed->mesh;
+    const instance *in = &set->scene->instances[h->instance];
+    const uint32_t *i = m->triangles[h->primitive];
+    const real3 p0 = vector_of(m->positions[i[0]]);
+    const real3 e1 = map_vector(in->to_world, sub3(vector_of(m->positions[i[1]]), p0));
+    const real3 e2 = map_vector(in->to_world, sub3(vector_of(m->positions[i[2]]), p0));
+    return placed->sign*dot3(normal_of_edges(e1, e2), direction) > 0;
 }
 
 void surface_expect_triangle(const surface_set *set, const hit *h)

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "render/geometry.h"
+#include "render/lanes.h"
 #include "render/scene.h"
 #include "render/tracer.h"
 
@@ -41,6 +42,29 @@ void surface_set_destroy(surface_set *set);
  * to stay as long as the surface. */
 void surface_find(const surface_set *set, const ray *r, const hit *h, real3 wo, float choice, facet_bsdf *own,
                   surface *at);
+
+/* Triangles without normals, texture coordinates and colours of their own, of one bsdf and without emission: loops find
+ * them (surface_loops_text.h). */
+typedef struct plain_surface {
+    const facet_bsdf *bsdf; /* NULL: the hit is of another kind */
+    bool transmits;
+} plain_surface;
+
+plain_surface surface_plain(const surface_set *set, const hit *h);
+
+/* A block of hits of such triangles.  Lanes keep what they have of an instance until another comes. */
+typedef struct plain_block {
+    float corners[3][3][LOOP_LANES]; /* of the triangles, as their mesh has them */
+    float u[LOOP_LANES], v[LOOP_LANES];
+    float to_world[3][4][LOOP_LANES], sign[LOOP_LANES], column[LOOP_LANES], offset[LOOP_LANES]; /* the instance's */
+    uint32_t instance[LOOP_LANES];                                                              /* one more */
+    uint32_t is_there[LOOP_LANES]; /* all bits, or none */
+} plain_block;
+
+void surface_load_plain(const surface_set *set, const hit *h, plain_block *block, uint32_t lane);
+
+/* glTF's single-sided surfaces are not drawn from behind; light meets them all the same. */
+bool surface_is_hidden(const surface_set *set, const hit *h, real3 direction);
 
 /* Fetches what surface_find will want of a hit into the caches: first the triangle, some hits later its vertices. */
 void surface_expect_triangle(const surface_set *set, const hit *h);
