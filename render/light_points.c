@@ -25,12 +25,11 @@ static light_sample sample_triangle(const light_set *set, const emitter *e, real
     const real2 weights = light_triangle_weights(u, v);
     const light_triangle_point point = light_triangle_sample(e->triangle, from, weights);
     const mesh *m = &set->scene->meshes[set->scene->instances[e->instance].mesh];
-    return (light_sample){
-        .direction = point.direction,
-        .target = point.target,
-        .pdf = point.pdf,
-        .radiance = e->is_even ? e->triangle.radiance
-                               : surface_emission(set->scene, m, e->primitive, weights.x, weights.y)};
+    return (light_sample){.direction = point.direction,
+                          .target = point.target,
+                          .pdf = point.pdf,
+                          .radiance = e->is_even ? e->triangle.radiance
+                                                 : surface_emission(set->scene, m, e->primitive, weights.x, weights.y)};
 }
 
 /* 1 - cos of the half angle under which a sphere is seen, from sin^2; exact for far spheres. */

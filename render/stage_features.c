@@ -43,8 +43,7 @@ static bool meet(path_batch *batch, const path_list *list, uint32_t i, real3 nor
 
 void feature_of_surface(path_batch *batch, const path_list *list, uint32_t i, const surface *at)
 {
-    if (meet(batch, list, i, at->shading.n) && !at->scatters)
-        set_albedo(batch, list, i, add3(at->emission, at->unlit));
+    if (meet(batch, list, i, at->shading.n) && !at->scatters) set_albedo(batch, list, i, add3(at->emission, at->unlit));
 }
 
 void feature_of_vertex(path_batch *batch, const path_list *list, uint32_t k)

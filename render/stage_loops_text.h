@@ -28,8 +28,7 @@ static inline float true_side(const vertex_list *v, size_t k, real3 wi, uint32_t
 static void aim(vertex_list *v, bool is_implicit)
 {
     const uint32_t is_any = !is_implicit;
-    for (size_t first = 0; first < v->n; first += BLOCK)
-        EACH_LANE(i)
+    for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
         {
             const size_t k = first + i;
             const real3 direction = lane3(&v->light.direction, k), wi = lane_to_local(v, k, direction);
@@ -61,8 +60,7 @@ static inline void carry(vertex_list *v, size_t k, real3 light)
 static void connect(vertex_list *v, bool is_mis)
 {
     const uint32_t is_alone = !is_mis;
-    for (size_t first = 0; first < v->n; first += BLOCK)
-        EACH_LANE(i)
+    for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
         {
             const size_t k = first + i;
             const real3 f = lane3(&v->f, k), direction = lane3(&v->light.direction, k);
@@ -88,8 +86,7 @@ static void connect(vertex_list *v, bool is_mis)
 static void scatter(vertex_list *v, bool has_roulette)
 {
     const float enough = has_roulette ? 1/ROULETTE_BELOW : REAL_MAX; /* else all that is not black goes on */
-    for (size_t first = 0; first < v->n; first += BLOCK)
-        EACH_LANE(i)
+    for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
         {
             const size_t k = first + i;
             const real3 world = lane_to_world(v, k, lane3(&v->wi, k)), wi = scale3(1/length3(world), world);

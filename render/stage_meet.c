@@ -127,16 +127,17 @@ static uint32_t add_vertex(path_batch *batch, const path_list *list, uint32_t i)
     return k;
 }
 
-/* A vertex of a surface that loops find, a block of them at once. */
-static void add_plain(path_batch *batch, const path_context *c, const path_list *list, uint32_t i, const hit *h,
-                      plain_surface at)
+/* A vertex of a surface that loops find, a block of them at once; false if the hit is of another kind. */
+static bool add_plain(path_batch *batch, const path_context *c, const path_list *list, uint32_t i, const hit *h)
 {
     vertex_list *v = &batch->vertices;
+    const plain_surface at = surface_load_plain(c->surfaces, h, &batch->plain, v->n%LOOP_LANES);
+    if (!at.bsdf) return false;
     const uint32_t k = add_vertex(batch, list, i);
     v->bsdf[k] = at.bsdf;
     v->transmits[k] = at.transmits ? UINT32_MAX : 0;
     set3(&v->wi, k, neg3(get3(&list->ray.direction, i)));
-    surface_load_plain(c->surfaces, h, &batch->plain, k%LOOP_LANES);
+    return true;
 }
 
 /* A vertex of any other, whose emission is gathered first. */
@@ -176,10 +177,8 @@ void stage_meet(path_batch *batch, const path_context *c, const path_list *list,
     for (uint32_t k = 0; k < n_hits; k++) {
         const uint32_t i = batch->order[k], n = v->n;
         const hit h = hit_at(batch, i);
-        const plain_surface plain = surface_plain(c->surfaces, &h);
         expect(batch, c, k, n_hits);
-        if (plain.bsdf && !is_last) add_plain(batch, c, list, i, &h, plain);
-        else add_surface(batch, c, list, i, &h, is_last);
+        if (is_last || !add_plain(batch, c, list, i, &h)) add_surface(batch, c, list, i, &h, is_last);
         if (v->n > n && v->n%LOOP_LANES == 0) loops->meet(v, v->n - LOOP_LANES, &batch->plain);
     }
     if (v->n%LOOP_LANES) loops->meet(v, v->n/LOOP_LANES*LOOP_LANES, &batch->plain);

@@ -7,10 +7,6 @@
 
 #include "render/texture.h"
 
-/* The viewer's mirror image leaves the true surface at this cosine at least (or almost at the viewer's own, where
- * that is less). */
-#define LEAST_MIRROR_COSINE 0.01f
-
 typedef struct placement {
     float sign;   /* of the determinant */
     float column; /* the largest factor by which a coordinate grows */
@@ -51,10 +47,12 @@ static shared_shading shading_of(const material *mat)
     return (shared_shading){.is_uniform = true, .bsdf = reflection_of(mat, base, mat->metallic, mat->roughness)};
 }
 
+/* Reflection of glTF's own materials is the same all around the normal, wherever tangents point. */
 static bool is_plain(const mesh *m, const material *mat, const shared_shading *shading)
 {
+    const bool has_tangents = mat->kind == SURFACE_BSDF && (m->tangents || m->uv[0]);
     return shading->is_uniform && mat->normal_texture.texture == NONE && !(max_of3(vector_of(mat->emission)) > 0) &&
-           !m->normals && !m->tangents && !m->uv[0] && !m->colors;
+           !has_tangents && !m->colors;
 }
 
 static placement placement_of(const surface_set *set, const instance *in)
@@ -67,8 +65,7 @@ static placement placement_of(const surface_set *set, const instance *in)
                        .offset = max_abs3(map_column(in->to_world, 3)),
                        .mesh = m,
                        .is_plain = is_plain(m, mat, &set->shadings[m->material]),
-                       .is_one_sided =
-                           !mat->is_double_sided && !(mat->transmission > 0) && mat->kind != SURFACE_BSDF};
+                       .is_one_sided = !mat->is_double_sided && !(mat->transmission > 0) && mat->kind != SURFACE_BSDF};
 }
 
 facet_status surface_set_create(const scene *s, surface_set **result)
@@ -234,20 +231,22 @@ static void set_material(surface *at, const surface_set *set, size_t index, cons
                          : reflection_of(mat, base.c, metallic, roughness);
 }
 
-/* A shading normal that reflection can use.  Interpolated and mapped normals may lean so far from the true one g
- * (both on the viewer's side) that the mirror image of wo lies under the surface, and the surface looks black.  In
- * the plane of g and n, with n at the angle t from g and wo = c g + s x + ..., the mirror image has the cosine
+/* In the plane of g and n, with n at the angle t from g and wo = c g + s x + ..., the mirror image has the cosine
  *     2 (n.wo)(n.g) - c = c cos 2t + s sin 2t = r cos(2t - phi)
- * with g; where it is too small, n is brought back to the angle at which it is just enough. */
+ * with g. */
+real3 surface_bend_normal(real3 n, real3 g, real3 wo)
+{
+    const real3 x = normalize3(madd3(n, -dot3(n, g), g));
+    const float c = dot3(wo, g), s = dot3(wo, x), r = ksqrt(c*c + s*s);
+    const float t = 0.5f*(katan2(s, c) + kacos(kmin(least_mirror_cosine(c)/r, 1)));
+    return normalize3(add3(scale3(kcos(t), g), scale3(ksin(t), x)));
+}
+
+/* A shading normal that reflection can use. */
 static real3 usable_normal(real3 n, real3 g, real3 wo)
 {
     if (dot3(n, g) < 0) n = neg3(n);
-    const float c = dot3(wo, g), least = kmin(0.9f*c, LEAST_MIRROR_COSINE);
-    if (2*dot3(n, wo)*dot3(n, g) - c >= least) return n;
-    const real3 x = normalize3(madd3(n, -dot3(n, g), g));
-    const float s = dot3(wo, x), r = ksqrt(c*c + s*s);
-    const float t = 0.5f*(katan2(s, c) + kacos(kmin(least/r, 1)));
-    return normalize3(add3(scale3(kcos(t), g), scale3(ksin(t), x)));
+    return mirror_cosine(n, g, wo) >= least_mirror_cosine(dot3(wo, g)) ? n : surface_bend_normal(n, g, wo);
 }
 
 /* The frame: n given on the front side, `true` where it is the geometric normal.  Reflecting surfaces are turned to the
@@ -340,33 +339,39 @@ void surface_find(const surface_set *set, const ray *r, const hit *h, real3 wo, 
     }
 }
 
-plain_surface surface_plain(const surface_set *set, const hit *h)
+static void load_instance(const surface_set *set, uint32_t index, plain_block *block, uint32_t lane)
 {
-    if (h->instance >= set->scene->n_instances) return (plain_surface){.bsdf = NULL};
-    const placement *placed = &set->placements[h->instance];
-    if (!placed->is_plain) return (plain_surface){.bsdf = NULL};
-    const shared_shading *shading = &set->shadings[placed->mesh->material];
-    return (plain_surface){&shading->bsdf, shading->transmits};
-}
-
-void surface_load_plain(const surface_set *set, const hit *h, plain_block *block, uint32_t lane)
-{
-    const placement *placed = &set->placements[h->instance];
-    const mesh *m = placed->mesh;
-    const uint32_t *triangle = m->triangles[h->primitive];
-    for (int corner = 0; corner < 3; corner++)
-        for (int k = 0; k < 3; k++) block->corners[corner][k][lane] = m->positions[triangle[corner]][k];
-    block->u[lane] = h->u;
-    block->v[lane] = h->v;
-    block->is_there[lane] = UINT32_MAX;
-    if (block->instance[lane] == h->instance + 1) return;
-    block->instance[lane] = h->instance + 1;
-    const instance *in = &set->scene->instances[h->instance];
+    if (block->instance[lane] == index + 1) return;
+    block->instance[lane] = index + 1;
+    const placement *placed = &set->placements[index];
+    const instance *in = &set->scene->instances[index];
     for (int row = 0; row < 3; row++)
         for (int k = 0; k < 4; k++) block->to_world[row][k][lane] = in->to_world[row][k];
     block->sign[lane] = placed->sign;
     block->column[lane] = placed->column;
     block->offset[lane] = placed->offset;
+}
+
+plain_surface surface_load_plain(const surface_set *set, const hit *h, plain_block *block, uint32_t lane)
+{
+    if (h->instance >= set->scene->n_instances) return (plain_surface){.bsdf = NULL};
+    const placement *placed = &set->placements[h->instance];
+    if (!placed->is_plain) return (plain_surface){.bsdf = NULL};
+    const mesh *m = placed->mesh;
+    const uint32_t *triangle = m->triangles[h->primitive];
+    for (int corner = 0; corner < 3; corner++)
+        for (int k = 0; k < 3; k++) block->corners[corner][k][lane] = m->positions[triangle[corner]][k];
+    if (m->normals)
+        for (int corner = 0; corner < 3; corner++)
+            for (int k = 0; k < 3; k++) block->normals[corner][k][lane] = m->normals[triangle[corner]][k];
+    block->u[lane] = h->u;
+    block->v[lane] = h->v;
+    block->is_there[lane] = UINT32_MAX;
+    block->is_smooth[lane] = m->normals ? UINT32_MAX : 0;
+    block->has_smooth |= m->normals != NULL;
+    load_instance(set, h->instance, block, lane);
+    const shared_shading *shading = &set->shadings[m->material];
+    return (plain_surface){&shading->bsdf, shading->transmits};
 }
 
 bool surface_is_hidden(const surface_set *set, const hit *h, real3 direction)
