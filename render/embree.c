@@ -293,12 +293,15 @@ void embree_prepare_thread(void)
 }
 
 /* Embree ends the program on rays with larger coordinates, or NaN; nothing it holds can lie on them. */
-static bool is_traceable(rays r, size_t i)
+static inline int is_small(float coordinate)
 {
-    const float largest = 1e18f;
-    return kabs(r.origin.x[i]) < largest && kabs(r.origin.y[i]) < largest && kabs(r.origin.z[i]) < largest &&
-           kabs(r.direction.x[i]) < largest && kabs(r.direction.y[i]) < largest && kabs(r.direction.z[i]) < largest &&
-           r.t_min[i] >= 0 && r.t_max[i] >= r.t_min[i];
+    return kabs(coordinate) < 1e18f;
+}
+
+static inline int is_traceable(rays r, size_t i)
+{
+    return is_small(r.origin.x[i]) & is_small(r.origin.y[i]) & is_small(r.origin.z[i]) & is_small(r.direction.x[i]) &
+           is_small(r.direction.y[i]) & is_small(r.direction.z[i]) & (r.t_min[i] >= 0) & (r.t_max[i] >= r.t_min[i]);
 }
 
 /* Rays go to Embree in streams of at most this many, in the arrays that they are in; what is left to add is its own. */
@@ -309,15 +312,20 @@ typedef struct stream {
     uint32_t mask[STREAM], flags[STREAM], geometry[STREAM], top[STREAM];
 } stream;
 
-/* n rays from the first on; one whose end lies before its start is left out. */
-static struct RTCRayNp stream_rays(stream *own, rays r, size_t first, size_t n)
+/* What all rays have in common. */
+static void start_stream(stream *own)
 {
-    for (size_t i = 0; i < n; i++) {
-        own->t_far[i] = is_traceable(r, first + i) ? r.t_max[first + i] : -INFINITY;
+    for (size_t i = 0; i < STREAM; i++) {
         own->time[i] = 0;
         own->mask[i] = ~0u;
         own->flags[i] = 0;
     }
+}
+
+/* n rays from the first on; one whose end lies before its start is left out. */
+static struct RTCRayNp stream_rays(stream *own, rays r, size_t first, size_t n)
+{
+    for (size_t i = 0; i < n; i++) own->t_far[i] = is_traceable(r, first + i) ? r.t_max[first + i] : -INFINITY;
     return (struct RTCRayNp){.org_x = r.origin.x + first,
                              .org_y = r.origin.y + first,
                              .org_z = r.origin.z + first,
@@ -332,26 +340,25 @@ static struct RTCRayNp stream_rays(stream *own, rays r, size_t first, size_t n)
                              .flags = own->flags};
 }
 
-static void nearest_of_stream(RTCScene tree, struct RTCIntersectContext *context, rays r, hits h, size_t first,
-                              size_t n)
+static void nearest_of_stream(RTCScene tree, struct RTCIntersectContext *context, stream *own, rays r, hits h,
+                              size_t first, size_t n)
 {
-    stream own;
-    struct RTCRayHitNp rh = {.ray = stream_rays(&own, r, first, n),
-                             .hit = {.Ng_x = own.normal[0],
-                                     .Ng_y = own.normal[1],
-                                     .Ng_z = own.normal[2],
+    struct RTCRayHitNp rh = {.ray = stream_rays(own, r, first, n),
+                             .hit = {.Ng_x = own->normal[0],
+                                     .Ng_y = own->normal[1],
+                                     .Ng_z = own->normal[2],
                                      .u = h.u + first,
                                      .v = h.v + first,
                                      .primID = h.primitive + first,
-                                     .geomID = own.geometry,
-                                     .instID = {own.top}}};
-    for (size_t i = 0; i < n; i++) own.geometry[i] = own.top[i] = RTC_INVALID_GEOMETRY_ID;
+                                     .geomID = own->geometry,
+                                     .instID = {own->top}}};
+    for (size_t i = 0; i < n; i++) own->geometry[i] = own->top[i] = RTC_INVALID_GEOMETRY_ID;
     rtcIntersectNp(tree, context, &rh, (unsigned)n);
     for (size_t i = 0; i < n; i++) {
-        h.t[first + i] = own.t_far[i];
-        h.instance[first + i] = own.geometry[i] == RTC_INVALID_GEOMETRY_ID ? NO_HIT
-                                : own.top[i] == RTC_INVALID_GEOMETRY_ID    ? own.geometry[i]
-                                                                           : own.top[i];
+        h.t[first + i] = own->t_far[i];
+        h.instance[first + i] = own->geometry[i] == RTC_INVALID_GEOMETRY_ID ? NO_HIT
+                                : own->top[i] == RTC_INVALID_GEOMETRY_ID    ? own->geometry[i]
+                                                                            : own->top[i];
     }
 }
 
@@ -360,17 +367,20 @@ void embree_nearest(const embree_scene *t, size_t n, rays r, bool is_coherent, h
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
     if (is_coherent) context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    stream own;
+    start_stream(&own);
     for (size_t first = 0; first < n; first += STREAM)
-        nearest_of_stream(t->top, &context, r, h, first, n - first < STREAM ? n - first : STREAM);
+        nearest_of_stream(t->top, &context, &own, r, h, first, n - first < STREAM ? n - first : STREAM);
 }
 
 void embree_blocked(const embree_scene *t, size_t n, rays r, uint32_t *is_blocked)
 {
     struct RTCIntersectContext context;
     rtcInitIntersectContext(&context);
+    stream own;
+    start_stream(&own);
     for (size_t first = 0; first < n; first += STREAM) {
         const size_t some = n - first < STREAM ? n - first : STREAM;
-        stream own;
         const struct RTCRayNp rs = stream_rays(&own, r, first, some);
         rtcOccludedNp(t->top, &context, &rs, (unsigned)some);
         for (size_t i = 0; i < some; i++) is_blocked[first + i] = own.t_far[i] < 0; /* -inf when something was hit */

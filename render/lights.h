@@ -10,6 +10,7 @@
 #include <stdbool.h>
 
 #include "render/geometry.h"
+#include "render/rays.h"
 #include "render/scene.h"
 #include "render/sky.h"
 #include "render/surface.h"
@@ -42,6 +43,15 @@ typedef struct light_sample {
 
 /* Draws a light and a point on it, for the point `from`; u: 32-bit fractions. */
 light_sample light_set_sample(const light_set *set, real3 from, const uint32_t u[3]);
+
+/* The same for n points, in arrays with room for whole vectors (loops.h). */
+typedef struct light_samples {
+    vectors direction, target, radiance;
+    float *pdf;
+    uint32_t *is_infinite, *is_delta;
+} light_samples;
+
+void light_set_sample_many(const light_set *set, size_t n, vectors from, uint32_t *const u[3], light_samples s);
 
 /* The density with which light_set_sample at `from` draws the direction to this hit of an emitting surface. */
 float light_set_pdf_of_hit(const light_set *set, real3 from, const hit *h, const surface *at);

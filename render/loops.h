@@ -4,8 +4,12 @@
  * SPDX-License-Identifier: MIT */
 #pragma once
 
+#include <stdbool.h>
 #include <stddef.h>
 
+#include "render/lanes.h"
+#include "render/light_triangle.h"
+#include "render/lights.h"
 #include "render/linear.h"
 #include "render/rays.h"
 #include "render/sampler.h"
@@ -14,7 +18,7 @@
 extern "C" {
 #endif
 
-enum { LOOP_LANES = 64 };
+struct vertex_list; /* stages.h */
 
 typedef struct render_loops {
     const char *name;
@@ -24,6 +28,18 @@ typedef struct render_loops {
     /* The group's three numbers for n streams, as 32-bit fractions. */
     void (*points)(const sampler *s, size_t n, const uint32_t *pixel, const uint32_t *index, uint32_t group,
                    uint32_t *const u[3]);
+    /* Vertices from `first`, the first of a block, on: those in the block's hits; wi: wo in world space. */
+    void (*meet)(struct vertex_list *v, size_t first, plain_block *block);
+    /* For each of n points one of the triangles, and a point on it; lights.h. */
+    void (*light)(uint32_t n_triangles, const light_triangle *triangles, size_t n, vectors from, uint32_t *const u[3],
+                  light_samples s);
+    /* wi towards the lights; none where a light lies on the other side of the true surface than of the shading frame.
+     * is_implicit: none but delta lights. */
+    void (*aim)(struct vertex_list *v, bool is_implicit);
+    /* Rays to the lights, and in f what they bring; is_mis: by the power heuristic. */
+    void (*connect)(struct vertex_list *v, bool is_mis);
+    /* Rays along the sampled directions wi, and in f what the paths carry then. */
+    void (*scatter)(struct vertex_list *v, bool has_roulette);
 } render_loops;
 
 /* Those of the instruction set that libfacet's batches use. */

@@ -166,4 +166,19 @@ static void points(const sampler *given, size_t n, const uint32_t *pixel, const 
     }
 }
 
-const render_loops RENDER_LOOPS = {.name = RENDER_LOOPS_NAME, .nearest = nearest, .blocked = blocked, .points = points};
+/* ---- The table ----------------------------------------------------------------------------------------------- */
+
+#include "render/light_loops_text.h"
+#include "render/stage_loops_text.h"
+
+#include "render/surface_loops_text.h"
+
+const render_loops RENDER_LOOPS = {.name = RENDER_LOOPS_NAME,
+                                   .nearest = nearest,
+                                   .blocked = blocked,
+                                   .points = points,
+                                   .meet = meet,
+                                   .light = light,
+                                   .aim = aim,
+                                   .connect = connect,
+                                   .scatter = scatter};

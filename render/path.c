@@ -9,6 +9,7 @@
 #include "render/stages.h"
 
 _Static_assert(PATHS%LOOP_LANES == 0, "arrays hold whole vectors");
+_Static_assert(ROOM*sizeof(float)%64 == 0, "arrays that follow a LINE_ALIGNED one begin with a cache line, too");
 
 path_batch *path_batch_create(const scene *s)
 {
@@ -69,7 +70,7 @@ void path_batch_run(path_batch *batch, const path_context *c, tile where, uint32
         }
         stage_trace(batch, c, list, event == 0, counts);
         stage_meet(batch, c, list, event >= c->settings->depth);
-        stage_connect(batch, c, list, group, counts);
+        stage_connect(batch, c, group, counts);
         stage_scatter(batch, c, list, event + 1, group, next);
     }
     deposit(batch, c, where, sample_index, to, counts);

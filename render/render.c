@@ -287,7 +287,7 @@ facet_status render_continue(const scene *s, const render_settings *settings, re
     }
     const double begin = run_now();
     job j = {0};
-    run u = {0};
+    run u = {.job = &j, .settings = &r};
     thread_pool *pool = NULL;
     crew_part *part = NULL;
     facet_status status = run_create(s, &r, state, &j, &u, &pool, &part, why);

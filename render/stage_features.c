@@ -30,14 +30,25 @@ void feature_of_sky(path_batch *batch, const path_list *list, uint32_t i, real3 
     if (!batch->features.is_known[list->slot[i]]) set_albedo(batch, list, i, radiance);
 }
 
-void feature_of_surface(path_batch *batch, const path_list *list, uint32_t i, const surface *at)
+/* Where it lies, if this is the first.  Returns whether albedo and normal are open yet. */
+static bool meet(path_batch *batch, const path_list *list, uint32_t i, real3 normal)
 {
     feature_list *f = &batch->features;
     const uint32_t slot = list->slot[i];
     if (list->origin[i] == FROM_CAMERA) f->distance[slot] = batch->t[i];
-    if (f->is_known[slot]) return;
-    set3(&f->normal, slot, at->shading.n);
-    if (!at->scatters) set_albedo(batch, list, i, add3(at->emission, at->unlit));
+    if (f->is_known[slot]) return false;
+    set3(&f->normal, slot, normal);
+    return true;
+}
+
+void feature_of_surface(path_batch *batch, const path_list *list, uint32_t i, const surface *at)
+{
+    if (meet(batch, list, i, at->shading.n) && !at->scatters) set_albedo(batch, list, i, add3(at->emission, at->unlit));
+}
+
+void feature_of_vertex(path_batch *batch, const path_list *list, uint32_t k)
+{
+    meet(batch, list, batch->vertices.path[k], get3(&batch->vertices.up, k));
 }
 
 void feature_of_scattering(path_batch *batch, const path_list *list, uint32_t k)

@@ -19,27 +19,11 @@ static hit hit_at(const path_batch *batch, uint32_t i)
     return (hit){batch->t[i], batch->u[i], batch->v[i], batch->instance[i], batch->primitive[i]};
 }
 
-/* glTF's single-sided surfaces are not drawn from behind; light meets them all the same. */
-static bool is_culled(const path_context *c, const hit *h, real3 direction)
-{
-    if (h->instance >= c->scene->n_instances) return false;
-    const instance *in = &c->scene->instances[h->instance];
-    const mesh *m = &c->scene->meshes[in->mesh];
-    const material *mat = &c->scene->materials[m->material];
-    if (mat->is_double_sided || mat->transmission > 0 || mat->kind == SURFACE_BSDF) return false;
-    const uint32_t *i = m->triangles[h->primitive];
-    const real3 p0 = vector_of(m->positions[i[0]]);
-    const real3 e1 = map_vector(in->to_world, sub3(vector_of(m->positions[i[1]]), p0));
-    const real3 e2 = map_vector(in->to_world, sub3(vector_of(m->positions[i[2]]), p0));
-    const float sign = map_determinant(in->to_world) < 0 ? -1.0f : 1.0f;
-    return sign*dot3(normal_of_edges(e1, e2), direction) > 0;
-}
-
 /* Sends a camera ray on through surfaces that are not drawn. */
 static void pass_culled(path_batch *batch, const path_context *c, path_list *list, uint32_t i, path_counts *counts)
 {
     hit h = hit_at(batch, i);
-    while (h.instance != NO_HIT && is_culled(c, &h, get3(&list->ray.direction, i))) {
+    while (h.instance != NO_HIT && surface_is_hidden(c->surfaces, &h, get3(&list->ray.direction, i))) {
         list->ray.t_min[i] = nextafterf(h.t, INFINITY);
         const ray r = get_ray(&list->ray, i);
         if (!tracer_intersect(c->tracer, &r, &h)) h.instance = NO_HIT;
@@ -137,28 +121,76 @@ static void expect(const path_batch *batch, const path_context *c, uint32_t k, u
     }
 }
 
+/* Path i goes on from a vertex. */
+static uint32_t add_vertex(path_batch *batch, const path_list *list, uint32_t i)
+{
+    vertex_list *v = &batch->vertices;
+    const uint32_t k = v->n++;
+    v->path[k] = i;
+    v->slot[k] = list->slot[i];
+    v->pixel[k] = list->pixel[i];
+    v->index[k] = list->index[i];
+    v->chance[k] = batch->chance[1][i];
+    copy3(&v->throughput, k, &list->throughput, i);
+    v->eta_scale[k] = list->eta_scale[i];
+    return k;
+}
+
+/* A vertex of a surface that loops find, a block of them at once; false if the hit is of another kind. */
+static bool add_plain(path_batch *batch, const path_context *c, const path_list *list, uint32_t i, const hit *h)
+{
+    vertex_list *v = &batch->vertices;
+    const plain_surface at = surface_load_plain(c->surfaces, h, &batch->plain, v->n%LOOP_LANES);
+    if (!at.bsdf) return false;
+    const uint32_t k = add_vertex(batch, list, i);
+    v->bsdf[k] = at.bsdf;
+    v->transmits[k] = at.transmits ? UINT32_MAX : 0;
+    set3(&v->wi, k, neg3(get3(&list->ray.direction, i)));
+    return true;
+}
+
+/* A vertex of any other, whose emission is gathered first. */
+static void add_surface(path_batch *batch, const path_context *c, const path_list *list, uint32_t i, const hit *h,
+                        bool is_last)
+{
+    vertex_list *v = &batch->vertices;
+    const ray r = get_ray(&list->ray, i);
+    const real3 wo = neg3(vector_of(r.direction));
+    surface at;
+    surface_find(c->surfaces, &r, h, wo, fraction(batch->chance[0][i]), &v->own[v->n], &at);
+    gather_emission(batch, c, list, i, &at);
+    if (!at.scatters || is_last) {
+        if (c->keeps_features) feature_of_surface(batch, list, i, &at);
+        return;
+    }
+    const uint32_t k = add_vertex(batch, list, i);
+    v->bsdf[k] = at.bsdf;
+    v->transmits[k] = at.transmits ? UINT32_MAX : 0;
+    set3(&v->position, k, at.position);
+    set3(&v->normal, k, at.normal);
+    v->offset[k] = at.offset;
+    set3(&v->t, k, at.shading.t);
+    set3(&v->b, k, at.shading.b);
+    set3(&v->up, k, at.shading.n);
+    v->facing[k] = dot3(at.normal, wo);
+    set3(&v->wo, k, to_local(&at.shading, wo));
+}
+
 /* The surfaces that paths have met: their emission is gathered, and those that scatter become vertices. */
 void stage_meet(path_batch *batch, const path_context *c, const path_list *list, bool is_last)
 {
     vertex_list *v = &batch->vertices;
+    const render_loops *loops = render_loops_chosen();
     const uint32_t n_hits = sort_by_material(batch, c, list);
-    uint32_t n = 0;
+    v->n = 0;
     for (uint32_t k = 0; k < n_hits; k++) {
-        const uint32_t i = batch->order[k];
-        const ray r = get_ray(&list->ray, i);
+        const uint32_t i = batch->order[k], n = v->n;
         const hit h = hit_at(batch, i);
-        const real3 wo = neg3(vector_of(r.direction));
-        surface *at = &v->at[n];
         expect(batch, c, k, n_hits);
-        surface_find(c->surfaces, &r, &h, wo, fraction(batch->chance[0][i]), &v->own[n], at);
-        gather_emission(batch, c, list, i, at);
-        if (c->keeps_features) feature_of_surface(batch, list, i, at);
-        if (!at->scatters || is_last) continue;
-        set3(&v->wo, n, to_local(&at->shading, wo));
-        v->path[n] = i;
-        v->pixel[n] = list->pixel[i];
-        v->index[n] = list->index[i];
-        n++;
+        if (is_last || !add_plain(batch, c, list, i, &h)) add_surface(batch, c, list, i, &h, is_last);
+        if (v->n > n && v->n%LOOP_LANES == 0) loops->meet(v, v->n - LOOP_LANES, &batch->plain);
     }
-    v->n = n;
+    if (v->n%LOOP_LANES) loops->meet(v, v->n/LOOP_LANES*LOOP_LANES, &batch->plain);
+    if (c->keeps_features)
+        for (uint32_t k = 0; k < v->n; k++) feature_of_vertex(batch, list, k);
 }

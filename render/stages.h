@@ -23,6 +23,9 @@ enum { GROUP_CAMERA, GROUP_LIGHT, GROUP_SCATTER, GROUP_CHANCE, GROUPS_PER_EVENT 
 /* Arrays of a power of two would lie at equal offsets in their pages, and evict each other from the first cache. */
 enum { PATHS = TILE_SIZE*TILE_SIZE, ROOM = PATHS + 16 };
 
+/* Arrays after this begin with a cache line. */
+#define LINE_ALIGNED __attribute__((aligned(64)))
+
 /* What sent a ray. */
 typedef enum path_origin { FROM_CAMERA, FROM_DELTA, FROM_LOBE } path_origin;
 
@@ -39,7 +42,7 @@ typedef struct ray_array {
 /* Paths that go on, and the ray that each follows, of unit direction.  Those that end are left out of the next list. */
 typedef struct path_list {
     uint32_t n;
-    uint32_t slot[ROOM];               /* pixel of the tile */
+    LINE_ALIGNED uint32_t slot[ROOM];  /* pixel of the tile */
     uint32_t pixel[ROOM], index[ROOM]; /* sample_stream */
     ray_array ray;
     vector_array throughput;
@@ -49,27 +52,45 @@ typedef struct path_list {
     uint8_t origin[ROOM];    /* path_origin */
 } path_list;
 
-/* Where paths meet surfaces that scatter, ordered by material. */
+/* Lights chosen for vertices (lights.h). */
+typedef struct light_array {
+    vector_array direction, target, radiance;
+    float pdf[ROOM];
+    uint32_t is_infinite[ROOM], is_delta[ROOM];
+} light_array;
+
+/* Where paths meet surfaces that scatter, ordered by material.  The first arrays are copies of what the paths have. */
 typedef struct vertex_list {
     uint32_t n;
-    uint32_t path[ROOM]; /* index into the list of paths */
-    uint32_t pixel[ROOM], index[ROOM];
+    LINE_ALIGNED uint32_t path[ROOM]; /* index into the list of paths */
+    uint32_t slot[ROOM], pixel[ROOM], index[ROOM];
+    uint32_t chance[ROOM]; /* for roulette */
+    vector_array throughput;
+    float eta_scale[ROOM];
+    /* surface.h */
+    vector_array position, normal;
+    float offset[ROOM];
+    vector_array t, b, up;    /* the shading frame */
+    float facing[ROOM];       /* cosine between wo and the normal: its sign tells the side */
+    uint32_t transmits[ROOM]; /* all bits, or none */
+    const facet_bsdf *bsdf[ROOM];
+    facet_bsdf own[ROOM];
+    /* Scattering */
     uint32_t u[3][ROOM];
     vector_array wo, wi, number; /* local; number: the sampler's, as floats */
-    vector_array f;              /* or weight of a sample */
+    vector_array f;              /* or weight of a sample; then what a ray brings, or the path's next throughput */
     float pdf[ROOM];
-    int lobe[ROOM];
+    uint32_t lobe[ROOM];
     float eta[ROOM];
-    light_sample light[ROOM];
-    surface at[ROOM];
-    facet_bsdf own[ROOM];
+    light_array light;
+    ray_array ray;        /* towards the light, or scattered */
+    uint32_t keeps[ROOM]; /* whether that ray is traced */
 } vertex_list;
 
 typedef struct shadow_list {
     uint32_t n;
-    uint32_t slot[ROOM];
+    LINE_ALIGNED uint32_t vertex[ROOM]; /* f: what the ray brings if nothing is in its way */
     ray_array ray;
-    vector_array radiance; /* what it brings if nothing is in its way */
     uint32_t is_blocked[ROOM];
 } shadow_list;
 
@@ -84,10 +105,11 @@ struct path_batch {
     path_list lists[2];
     vector_array radiance; /* gathered so far, by slot */
     feature_list features;
-    float t[ROOM], u[ROOM], v[ROOM];
+    LINE_ALIGNED float t[ROOM], u[ROOM], v[ROOM];
     uint32_t instance[ROOM], primitive[ROOM];
     uint32_t chance[3][ROOM];
     vertex_list vertices;
+    plain_block plain; /* vertices whose surfaces are still to be found */
     shadow_list shadows;
     uint32_t material[ROOM], order[ROOM]; /* of what the paths met; the paths by it */
     uint32_t *n_of_material;              /* counts, then places, of one more than the scene's materials */
@@ -129,6 +151,22 @@ static inline void set_ray(ray_array *a, uint32_t i, real3 origin, real3 directi
     a->seed[i] = seed;
 }
 
+static inline void copy3(vector_array *to, uint32_t i, const vector_array *from, uint32_t k)
+{
+    to->x[i] = from->x[k];
+    to->y[i] = from->y[k];
+    to->z[i] = from->z[k];
+}
+
+static inline void copy_ray(ray_array *to, uint32_t i, const ray_array *from, uint32_t k)
+{
+    copy3(&to->origin, i, &from->origin, k);
+    copy3(&to->direction, i, &from->direction, k);
+    to->t_min[i] = from->t_min[k];
+    to->t_max[i] = from->t_max[k];
+    to->seed[i] = from->seed[k];
+}
+
 static inline void add_radiance(path_batch *batch, uint32_t slot, real3 radiance)
 {
     set3(&batch->radiance, slot, add3(get3(&batch->radiance, slot), radiance));
@@ -144,18 +182,11 @@ static inline float power_heuristic(float a, float b)
 /* Vertices from `first` on that share a bsdf which batches serve: their number, 0 if the first is none. */
 static inline uint32_t batch_from(const vertex_list *v, uint32_t first)
 {
-    const facet_bsdf *bsdf = v->at[first].bsdf;
+    const facet_bsdf *bsdf = v->bsdf[first];
     if (bsdf == &v->own[first] || facet_bsdf_lobes(bsdf) & (FACET_DELTA | FACET_TRANSMISSION)) return 0;
     uint32_t n = 1;
-    while (first + n < v->n && v->at[first + n].bsdf == bsdf) n++;
+    while (first + n < v->n && v->bsdf[first + n] == bsdf) n++;
     return n;
-}
-
-/* Whether wi and wo lie on the same side of the true surface for a reflection, and on opposite ones for light that
- * goes through; interpolated normals can claim otherwise. */
-static inline bool is_true_side(const surface *at, real3 wi, real3 wo, bool is_through)
-{
-    return (dot3(at->normal, wi)*dot3(at->normal, wo) > 0) != is_through;
 }
 
 /* One path per pixel of the tile, with its camera ray, into the first list. */
@@ -168,8 +199,7 @@ void stage_trace(path_batch *batch, const path_context *c, path_list *list, bool
 void stage_meet(path_batch *batch, const path_context *c, const path_list *list, bool is_last);
 
 /* Explicit light connection. */
-void stage_connect(path_batch *batch, const path_context *c, const path_list *list, uint32_t group,
-                   path_counts *counts);
+void stage_connect(path_batch *batch, const path_context *c, uint32_t group, path_counts *counts);
 
 /* Extends paths by scattered rays, into the next list. */
 void stage_scatter(path_batch *batch, const path_context *c, const path_list *list, uint32_t n_events, uint32_t group,
@@ -181,9 +211,12 @@ void stage_scatter(path_batch *batch, const path_context *c, const path_list *li
 /* Of paths that have just begun. */
 void feature_start(path_batch *batch, uint32_t n);
 
-/* Path i of the list has met the sky, or a surface. */
+/* Path i of the list has met the sky, or a surface where it ends. */
 void feature_of_sky(path_batch *batch, const path_list *list, uint32_t i, real3 radiance);
 void feature_of_surface(path_batch *batch, const path_list *list, uint32_t i, const surface *at);
+
+/* Vertex k has been found. */
+void feature_of_vertex(path_batch *batch, const path_list *list, uint32_t k);
 
 /* Vertex k has been given a direction. */
 void feature_of_scattering(path_batch *batch, const path_list *list, uint32_t k);

@@ -7,15 +7,13 @@
 
 #include "render/texture.h"
 
-/* The viewer's mirror image leaves the true surface at this cosine at least (or almost at the viewer's own, where
- * that is less). */
-#define LEAST_MIRROR_COSINE 0.01f
-
 typedef struct placement {
     float sign;   /* of the determinant */
     float column; /* the largest factor by which a coordinate grows */
     float offset; /* the largest coordinate of its origin */
     const mesh *mesh;
+    bool is_plain;     /* surface.h */
+    bool is_one_sided; /* not drawn from behind */
 } placement;
 
 typedef struct shared_shading {
@@ -49,13 +47,25 @@ static shared_shading shading_of(const material *mat)
     return (shared_shading){.is_uniform = true, .bsdf = reflection_of(mat, base, mat->metallic, mat->roughness)};
 }
 
-static placement placement_of(const scene *s, const instance *in)
+/* Reflection of glTF's own materials is the same all around the normal, wherever tangents point. */
+static bool is_plain(const mesh *m, const material *mat, const shared_shading *shading)
 {
+    const bool has_tangents = mat->kind == SURFACE_BSDF && (m->tangents || m->uv[0]);
+    return shading->is_uniform && mat->normal_texture.texture == NONE && !(max_of3(vector_of(mat->emission)) > 0) &&
+           !has_tangents && !m->colors;
+}
+
+static placement placement_of(const surface_set *set, const instance *in)
+{
+    const mesh *m = &set->scene->meshes[in->mesh];
+    const material *mat = &set->scene->materials[m->material];
     const real3 x = map_column(in->to_world, 0), y = map_column(in->to_world, 1), z = map_column(in->to_world, 2);
     return (placement){.sign = map_determinant(in->to_world) < 0 ? -1.0f : 1.0f,
                        .column = kmax(max_abs3(x), kmax(max_abs3(y), max_abs3(z))),
                        .offset = max_abs3(map_column(in->to_world, 3)),
-                       .mesh = &s->meshes[in->mesh]};
+                       .mesh = m,
+                       .is_plain = is_plain(m, mat, &set->shadings[m->material]),
+                       .is_one_sided = !mat->is_double_sided && !(mat->transmission > 0) && mat->kind != SURFACE_BSDF};
 }
 
 facet_status surface_set_create(const scene *s, surface_set **result)
@@ -69,8 +79,8 @@ facet_status surface_set_create(const scene *s, surface_set **result)
         surface_set_destroy(set);
         return FACET_NO_MEMORY;
     }
-    for (size_t i = 0; i < s->n_instances; i++) set->placements[i] = placement_of(s, &s->instances[i]);
     for (size_t i = 0; i < s->n_materials; i++) set->shadings[i] = shading_of(&s->materials[i]);
+    for (size_t i = 0; i < s->n_instances; i++) set->placements[i] = placement_of(set, &s->instances[i]);
     *result = set;
     return FACET_OK;
 }
@@ -221,20 +231,22 @@ static void set_material(surface *at, const surface_set *set, size_t index, cons
                          : reflection_of(mat, base.c, metallic, roughness);
 }
 
-/* A shading normal that reflection can use.  Interpolated and mapped normals may lean so far from the true one g
- * (both on the viewer's side) that the mirror image of wo lies under the surface, and the surface looks black.  In
- * the plane of g and n, with n at the angle t from g and wo = c g + s x + ..., the mirror image has the cosine
+/* In the plane of g and n, with n at the angle t from g and wo = c g + s x + ..., the mirror image has the cosine
  *     2 (n.wo)(n.g) - c = c cos 2t + s sin 2t = r cos(2t - phi)
- * with g; where it is too small, n is brought back to the angle at which it is just enough. */
+ * with g. */
+real3 surface_bend_normal(real3 n, real3 g, real3 wo)
+{
+    const real3 x = normalize3(madd3(n, -dot3(n, g), g));
+    const float c = dot3(wo, g), s = dot3(wo, x), r = ksqrt(c*c + s*s);
+    const float t = 0.5f*(katan2(s, c) + kacos(kmin(least_mirror_cosine(c)/r, 1)));
+    return normalize3(add3(scale3(kcos(t), g), scale3(ksin(t), x)));
+}
+
+/* A shading normal that reflection can use. */
 static real3 usable_normal(real3 n, real3 g, real3 wo)
 {
     if (dot3(n, g) < 0) n = neg3(n);
-    const float c = dot3(wo, g), least = kmin(0.9f*c, LEAST_MIRROR_COSINE);
-    if (2*dot3(n, wo)*dot3(n, g) - c >= least) return n;
-    const real3 x = normalize3(madd3(n, -dot3(n, g), g));
-    const float s = dot3(wo, x), r = ksqrt(c*c + s*s);
-    const float t = 0.5f*(katan2(s, c) + kacos(kmin(least/r, 1)));
-    return normalize3(add3(scale3(kcos(t), g), scale3(ksin(t), x)));
+    return mirror_cosine(n, g, wo) >= least_mirror_cosine(dot3(wo, g)) ? n : surface_bend_normal(n, g, wo);
 }
 
 /* The frame: n given on the front side, `true` where it is the geometric normal.  Reflecting surfaces are turned to the
@@ -327,6 +339,54 @@ void surface_find(const surface_set *set, const ray *r, const hit *h, real3 wo, 
     }
 }
 
+static void load_instance(const surface_set *set, uint32_t index, plain_block *block, uint32_t lane)
+{
+    if (block->instance[lane] == index + 1) return;
+    block->instance[lane] = index + 1;
+    const placement *placed = &set->placements[index];
+    const instance *in = &set->scene->instances[index];
+    for (int row = 0; row < 3; row++)
+        for (int k = 0; k < 4; k++) block->to_world[row][k][lane] = in->to_world[row][k];
+    block->sign[lane] = placed->sign;
+    block->column[lane] = placed->column;
+    block->offset[lane] = placed->offset;
+}
+
+plain_surface surface_load_plain(const surface_set *set, const hit *h, plain_block *block, uint32_t lane)
+{
+    if (h->instance >= set->scene->n_instances) return (plain_surface){.bsdf = NULL};
+    const placement *placed = &set->placements[h->instance];
+    if (!placed->is_plain) return (plain_surface){.bsdf = NULL};
+    const mesh *m = placed->mesh;
+    const uint32_t *triangle = m->triangles[h->primitive];
+    for (int corner = 0; corner < 3; corner++)
+        for (int k = 0; k < 3; k++) block->corners[corner][k][lane] = m->positions[triangle[corner]][k];
+    if (m->normals)
+        for (int corner = 0; corner < 3; corner++)
+            for (int k = 0; k < 3; k++) block->normals[corner][k][lane] = m->normals[triangle[corner]][k];
+    block->u[lane] = h->u;
+    block->v[lane] = h->v;
+    block->is_there[lane] = UINT32_MAX;
+    block->is_smooth[lane] = m->normals ? UINT32_MAX : 0;
+    block->has_smooth |= m->normals != NULL;
+    load_instance(set, h->instance, block, lane);
+    const shared_shading *shading = &set->shadings[m->material];
+    return (plain_surface){&shading->bsdf, shading->transmits};
+}
+
+bool surface_is_hidden(const surface_set *set, const hit *h, real3 direction)
+{
+    if (h->instance >= set->scene->n_instances || !set->placements[h->instance].is_one_sided) return false;
+    const placement *placed = &set->placements[h->instance];
+    const mesh *m = placed->mesh;
+    const instance *in = &set->scene->instances[h->instance];
+    const uint32_t *i = m->triangles[h->primitive];
+    const real3 p0 = vector_of(m->positions[i[0]]);
+    const real3 e1 = map_vector(in->to_world, sub3(vector_of(m->positions[i[1]]), p0));
+    const real3 e2 = map_vector(in->to_world, sub3(vector_of(m->positions[i[2]]), p0));
+    return placed->sign*dot3(normal_of_edges(e1, e2), direction) > 0;
+}
+
 void surface_expect_triangle(const surface_set *set, const hit *h)
 {
     if (h->instance < set->scene->n_instances)
@@ -342,9 +402,4 @@ void surface_expect_vertices(const surface_set *set, const hit *h)
         __builtin_prefetch(&m->positions[vertex]);
         if (m->normals) __builtin_prefetch(&m->normals[vertex]);
     }
-}
-
-real3 surface_leave(const surface *at, real3 direction)
-{
-    return madd3(at->position, dot3(direction, at->normal) > 0 ? at->offset : -at->offset, at->normal);
 }

@@ -5,6 +5,7 @@
 #include <stdbool.h>
 
 #include "render/geometry.h"
+#include "render/lanes.h"
 #include "render/scene.h"
 #include "render/tracer.h"
 
@@ -42,6 +43,46 @@ void surface_set_destroy(surface_set *set);
 void surface_find(const surface_set *set, const ray *r, const hit *h, real3 wo, float choice, facet_bsdf *own,
                   surface *at);
 
+/* Triangles of one bsdf, without emission, whose frames are those of their normals: loops find them
+ * (surface_loops_text.h). */
+typedef struct plain_surface {
+    const facet_bsdf *bsdf; /* NULL: the hit is of another kind */
+    bool transmits;
+} plain_surface;
+
+/* A block of hits of such triangles.  Lanes keep what they have of an instance until another comes. */
+typedef struct plain_block {
+    float corners[3][3][LOOP_LANES], normals[3][3][LOOP_LANES]; /* of the triangles, as their mesh has them */
+    float u[LOOP_LANES], v[LOOP_LANES];
+    float to_world[3][4][LOOP_LANES], sign[LOOP_LANES], column[LOOP_LANES], offset[LOOP_LANES]; /* the instance's */
+    uint32_t instance[LOOP_LANES];                                                              /* one more */
+    uint32_t is_there[LOOP_LANES], is_smooth[LOOP_LANES]; /* all bits, or none; the latter: there are normals */
+    bool has_smooth;
+    float up[3][LOOP_LANES]; /* the loop's own: the frames' normals */
+    uint32_t is_bent[LOOP_LANES];
+} plain_block;
+
+/* Loads a hit into a lane, if it is of this kind. */
+plain_surface surface_load_plain(const surface_set *set, const hit *h, plain_block *block, uint32_t lane);
+
+/* Interpolated and mapped normals n may lean so far from the true one g (both on the viewer's side) that the mirror
+ * image of wo lies under the surface, and the surface looks black: unless its cosine with g is at least this, ... */
+static inline float least_mirror_cosine(float cos_wo)
+{
+    return kmin(0.9f*cos_wo, 0.01f);
+}
+
+static inline float mirror_cosine(real3 n, real3 g, real3 wo)
+{
+    return 2*dot3(n, wo)*dot3(n, g) - dot3(wo, g);
+}
+
+/* ... n is brought back to where it is just enough. */
+real3 surface_bend_normal(real3 n, real3 g, real3 wo);
+
+/* glTF's single-sided surfaces are not drawn from behind; light meets them all the same. */
+bool surface_is_hidden(const surface_set *set, const hit *h, real3 direction);
+
 /* Fetches what surface_find will want of a hit into the caches: first the triangle, some hits later its vertices. */
 void surface_expect_triangle(const surface_set *set, const hit *h);
 void surface_expect_vertices(const surface_set *set, const hit *h);
@@ -56,7 +97,15 @@ real3 surface_emission(const scene *s, const mesh *m, uint32_t triangle, float u
 float surface_opacity(const void *user, uint32_t mesh_index, uint32_t triangle, float u, float v);
 
 /* A point just off the surface on the side that `direction` leaves to. */
-real3 surface_leave(const surface *at, real3 direction);
+static inline real3 leave_surface(real3 position, real3 normal, float offset, real3 direction)
+{
+    return madd3(position, dot3(direction, normal) > 0 ? offset : -offset, normal);
+}
+
+static inline real3 surface_leave(const surface *at, real3 direction)
+{
+    return leave_surface(at->position, at->normal, at->offset, direction);
+}
 
 #ifdef __cplusplus
 }

@@ -1,0 +1,289 @@
+/* light_points.c: choosing a light, a point on it, and the densities of both.
+ *
+ * [shirley96] Shirley, Wang and Zimmerman, Monte Carlo techniques for direct lighting calculations, 1996
+ *             (points on triangles; cones around spheres).
+ * SPDX-License-Identifier: MIT */
+#include <math.h>
+
+#include "render/light_set.h"
+#include "render/loops.h"
+#include "render/sampler.h"
+
+bool light_set_is_empty(const light_set *set)
+{
+    return set->n_emitters == 0;
+}
+
+const sky *light_set_sky(const light_set *set)
+{
+    return &set->sky;
+}
+
+/* A point of a triangle. */
+static light_sample sample_triangle(const light_set *set, const emitter *e, real3 from, float u, float v)
+{
+    const real2 weights = light_triangle_weights(u, v);
+    const light_triangle_point point = light_triangle_sample(e->triangle, from, weights);
+    const mesh *m = &set->scene->meshes[set->scene->instances[e->instance].mesh];
+    return (light_sample){.direction = point.direction,
+                          .target = point.target,
+                          .pdf = point.pdf,
+                          .radiance = e->is_even ? e->triangle.radiance
+                                                 : surface_emission(set->scene, m, e->primitive, weights.x, weights.y)};
+}
+
+/* 1 - cos of the half angle under which a sphere is seen, from sin^2; exact for far spheres. */
+static float one_minus_cos(float sin2)
+{
+    return sin2/(1 + ksqrt(kmax(1 - sin2, 0)));
+}
+
+/* The density over the cone of directions to a sphere; 0 from inside and from its surface, where rounding alone
+ * would decide which side a point lies on. */
+static float cone_pdf(const sphere *sp, real3 from)
+{
+    const real3 axis = sub3(vector_of(sp->center), from);
+    const float d2 = dot3(axis, axis);
+    const float clear = sp->radius + 1e-5f*kmax(sp->radius, max_abs3(vector_of(sp->center)));
+    return d2 > clear*clear ? 1/(TWO_PI*one_minus_cos(sp->radius*sp->radius/d2)) : 0;
+}
+
+/* From outside: a direction uniform in the cone around the sphere, [shirley96].  Elsewhere: a uniform point. */
+static light_sample sample_sphere(const light_set *set, const emitter *e, real3 from, float u, float v)
+{
+    const sphere *sp = &set->scene->spheres[e->primitive];
+    const real3 center = vector_of(sp->center), axis = sub3(center, from);
+    const real2 azimuth = kcossin_turn(v);
+    const float pdf = cone_pdf(sp, from);
+    light_sample s = {.radiance = vector_of(set->scene->materials[sp->material].emission)};
+    real3 outward;
+    bool is_front = true;
+    if (pdf > 0) {
+        const float d2 = dot3(axis, axis), d = ksqrt(d2);
+        const float drop = u*one_minus_cos(sp->radius*sp->radius/d2); /* 1 - cos */
+        const float sin2 = drop*(2 - drop);
+        const frame cone = frame_around(scale3(1/d, axis), splat3(0), 1);
+        const float sin = ksqrt(sin2);
+        s.direction = to_world(&cone, make3(sin*azimuth.x, sin*azimuth.y, 1 - drop));
+        /* The nearer intersection: sin of the angle at the centre from the law of sines. */
+        const float along = d*(1 - drop) - ksqrt(kmax(sp->radius*sp->radius - d2*sin2, 0));
+        outward = normalize3(sub3(madd3(from, along, s.direction), center));
+        s.pdf = pdf;
+    } else {
+        const float z = 1 - 2*u, sin = ksqrt(kmax(1 - z*z, 0));
+        outward = make3(sin*azimuth.x, sin*azimuth.y, z);
+        const real3 to_point = sub3(madd3(center, sp->radius, outward), from);
+        s.direction = normalize3(to_point);
+        s.pdf = area_pdf(to_point, outward, FOUR_PI*sp->radius*sp->radius);
+        is_front = dot3(to_point, outward) < 0;
+        if (!is_front && !e->is_double_sided) return (light_sample){.pdf = 0};
+    }
+    s.target = madd3(center, is_front ? sp->radius + e->offset : sp->radius - e->offset, outward);
+    return s;
+}
+
+/* [khr-lights] KHR_lights_punctual: inverse square law; a spot falls off as the square of a linear ramp in the cosine
+ * between its cones. */
+static light_sample sample_punctual(const light_set *set, const emitter *e, real3 from)
+{
+    const punctual_light *light = &set->scene->lights[e->primitive];
+    light_sample s = {.is_delta = true, .pdf = 1, .radiance = vector_of(light->intensity)};
+    if (light->kind == LIGHT_DIRECTIONAL) {
+        s.is_infinite = true;
+        s.direction = neg3(vector_of(light->direction));
+        return s;
+    }
+    s.target = vector_of(light->position);
+    const real3 to_light = sub3(s.target, from);
+    const float d2 = dot3(to_light, to_light);
+    if (!(d2 > 0)) return (light_sample){.pdf = 0};
+    s.direction = normalize3(to_light);
+    float falloff = 1/d2;
+    if (light->kind == LIGHT_SPOT) {
+        const float cos = -dot3(s.direction, vector_of(light->direction));
+        const float width = kmax(light->cos_inner - light->cos_outer, 1e-4f);
+        const float ramp = kmin(kmax((cos - light->cos_outer)/width, 0), 1);
+        falloff *= ramp*ramp;
+    }
+    s.radiance = scale3(falloff, s.radiance);
+    return s;
+}
+
+/* About the irradiance that an emitter brings to a point, whatever the surface there: what it is chosen by.  0 only
+ * where it brings none. */
+static float importance(const light_set *set, const emitter *e, real3 from)
+{
+    switch (e->kind) {
+    case EMITTER_TRIANGLE: return light_triangle_importance(e->triangle, from);
+    case EMITTER_SPHERE: {
+        const sphere *sp = &set->scene->spheres[e->primitive];
+        const real3 axis = sub3(vector_of(sp->center), from);
+        const float r2 = sp->radius*sp->radius;
+        return e->strength*PI*r2/kmax(dot3(axis, axis), r2);
+    }
+    case EMITTER_PUNCTUAL: {
+        const punctual_light *light = &set->scene->lights[e->primitive];
+        const real3 to_light = sub3(vector_of(light->position), from);
+        return light->kind == LIGHT_DIRECTIONAL ? e->strength : e->strength/kmax(dot3(to_light, to_light), 1e-12f);
+    }
+    case EMITTER_SKY: break;
+    }
+    return distant_importance(e);
+}
+
+/* The 32 digits of a fraction. */
+static uint32_t digits_of(double fraction)
+{
+    return fraction*0x1p32 < 0x1p32 - 1 ? (uint32_t)(fraction*0x1p32) : UINT32_MAX;
+}
+
+/* The probability that one of many emitters is chosen among those with a place. */
+static float share_of_placed(const light_set *set, real3 from)
+{
+    if (!(set->distant_weight > 0)) return 1;
+    const float irradiance = light_tree_irradiance(&set->placed, from);
+    return irradiance/(irradiance + set->distant_weight);
+}
+
+static uint32_t choose_of_many(const light_set *set, real3 from, double *u, float *probability)
+{
+    const float share = share_of_placed(set, from), shares[2] = {share, 1 - share};
+    uint32_t index = 0;
+    if (draw_weighted(shares, 2, 1, u) == 0) {
+        *probability = (float)((double)share*light_tree_draw(&set->placed, from, u, &index));
+        return index;
+    }
+    uint32_t rest;
+    index = alias_table_draw(&set->distant, digits_of(*u), &rest);
+    *u = (double)rest*0x1p-32;
+    *probability = (1 - share)*set->distant.cells[index].probability;
+    return set->n_placed + index;
+}
+
+/* Chooses an emitter for a point by *u in [0,1), of which it leaves the rest; *probability of it: 0 for none. */
+static uint32_t choose_emitter(const light_set *set, real3 from, double *u, float *probability)
+{
+    if (set->n_emitters > MOST_WEIGHED) return choose_of_many(set, from, u, probability);
+    float weights[MOST_WEIGHED], sum = 0;
+    for (uint32_t i = 0; i < set->n_emitters; i++) sum += weights[i] = importance(set, &set->emitters[i], from);
+    *probability = 0;
+    if (!(sum > 0 && sum < INFINITY)) return 0;
+    const uint32_t index = draw_weighted(weights, set->n_emitters, sum, u);
+    *probability = weights[index]/sum;
+    return index;
+}
+
+/* The probability with which choose_emitter chooses this one. */
+static float choice_probability(const light_set *set, real3 from, size_t index)
+{
+    if (set->n_emitters > MOST_WEIGHED) {
+        const float share = share_of_placed(set, from);
+        if (index >= set->n_placed) return (1 - share)*set->distant.cells[index - set->n_placed].probability;
+        return (float)((double)share*light_tree_probability(&set->placed, from, (uint32_t)index));
+    }
+    float sum = 0;
+    for (uint32_t i = 0; i < set->n_emitters; i++) sum += importance(set, &set->emitters[i], from);
+    return sum > 0 && sum < INFINITY ? importance(set, &set->emitters[index], from)/sum : 0;
+}
+
+static light_sample sample_one(const light_set *set, real3 from, const uint32_t u[3])
+{
+    light_sample s = {.pdf = 0};
+    if (set->n_emitters == 0) return s;
+    /* Choosing among many takes more digits than u[0] has, and the sky's texel what is left of them. */
+    double choice = (double)u[0]*0x1p-32 + (double)hash_pair(u[0], u[1] ^ u[2])*0x1p-64;
+    float probability;
+    const uint32_t index = choose_emitter(set, from, &choice, &probability);
+    if (!(probability > 0)) return s;
+    const emitter *e = &set->emitters[index];
+    const float v = fraction(u[1]), w = fraction(u[2]);
+    switch (e->kind) {
+    case EMITTER_TRIANGLE: s = sample_triangle(set, e, from, v, w); break;
+    case EMITTER_SPHERE: s = sample_sphere(set, e, from, v, w); break;
+    case EMITTER_PUNCTUAL: s = sample_punctual(set, e, from); break;
+    case EMITTER_SKY:
+        s.direction = sky_sample(&set->sky, digits_of(choice), v, w, &s.pdf);
+        s.radiance = sky_radiance(&set->sky, s.direction);
+        s.is_infinite = true;
+        break;
+    }
+    s.pdf *= probability;
+    return s;
+}
+
+static void set_sample(light_samples s, size_t i, const light_sample *light)
+{
+    const vectors to[3] = {s.direction, s.target, s.radiance};
+    const real3 from[3] = {light->direction, light->target, light->radiance};
+    for (int k = 0; k < 3; k++) {
+        to[k].x[i] = from[k].x;
+        to[k].y[i] = from[k].y;
+        to[k].z[i] = from[k].z;
+    }
+    s.pdf[i] = light->pdf;
+    s.is_infinite[i] = light->is_infinite;
+    s.is_delta[i] = light->is_delta;
+}
+
+void light_set_sample_many(const light_set *set, size_t n, vectors from, uint32_t *const u[3], light_samples s)
+{
+    if (set->is_plain) {
+        render_loops_chosen()->light(set->n_emitters, set->triangles, n, from, u, s);
+        return;
+    }
+    for (size_t i = 0; i < n; i++) {
+        const uint32_t numbers[3] = {u[0][i], u[1][i], u[2][i]};
+        const light_sample light = sample_one(set, make3(from.x[i], from.y[i], from.z[i]), numbers);
+        set_sample(s, i, &light);
+    }
+}
+
+light_sample light_set_sample(const light_set *set, real3 from, const uint32_t u[3])
+{
+    float at[3][LOOP_LANES], found[10][LOOP_LANES];
+    uint32_t room[3][LOOP_LANES], is_infinite[LOOP_LANES], is_delta[LOOP_LANES];
+    uint32_t *const numbers[3] = {room[0], room[1], room[2]};
+    for (int i = 0; i < LOOP_LANES; i++) {
+        at[0][i] = from.x;
+        at[1][i] = from.y;
+        at[2][i] = from.z;
+        for (int k = 0; k < 3; k++) room[k][i] = u[k];
+    }
+    light_set_sample_many(set, 1, (vectors){at[0], at[1], at[2]}, numbers,
+                          (light_samples){.direction = {found[0], found[1], found[2]},
+                                          .target = {found[3], found[4], found[5]},
+                                          .radiance = {found[6], found[7], found[8]},
+                                          .pdf = found[9],
+                                          .is_infinite = is_infinite,
+                                          .is_delta = is_delta});
+    return (light_sample){.direction = make3(found[0][0], found[1][0], found[2][0]),
+                          .target = make3(found[3][0], found[4][0], found[5][0]),
+                          .radiance = make3(found[6][0], found[7][0], found[8][0]),
+                          .pdf = found[9][0],
+                          .is_infinite = is_infinite[0],
+                          .is_delta = is_delta[0]};
+}
+
+float light_set_pdf_of_hit(const light_set *set, real3 from, const hit *h, const surface *at)
+{
+    if (h->instance < set->scene->n_instances) {
+        const size_t first = set->first_of_instance[h->instance];
+        if (first == NONE) return 0;
+        const emitter *e = &set->emitters[first + h->primitive];
+        const float pdf = area_pdf(sub3(at->position, from), e->triangle.normal, e->triangle.area);
+        return pdf > 0 ? pdf*choice_probability(set, from, first + h->primitive) : 0;
+    }
+    const size_t index = set->of_sphere[h->primitive];
+    if (index == NONE) return 0;
+    const sphere *sp = &set->scene->spheres[h->primitive];
+    const float cone = cone_pdf(sp, from);
+    const float pdf = cone > 0 ? cone
+                               : area_pdf(sub3(at->position, from), at->normal, FOUR_PI*sp->radius*sp->radius);
+    return pdf*choice_probability(set, from, index);
+}
+
+float light_set_pdf_of_sky(const light_set *set, real3 from, real3 direction)
+{
+    if (set->sky_emitter == NONE) return 0;
+    return choice_probability(set, from, set->sky_emitter)*sky_pdf(&set->sky, direction);
+}

@@ -1,0 +1,110 @@
+/* stage_loops_text.h: the loops over vertices, a part of loops_text.h.
+ * SPDX-License-Identifier: MIT */
+#include "render/stages.h"
+
+static inline real3 lane3(const vector_array *a, size_t k)
+{
+    return make3(a->x[k], a->y[k], a->z[k]);
+}
+
+/* to_local and to_world in the vertex's frame; gcc would keep a record of it in memory. */
+static inline real3 lane_to_local(const vertex_list *v, size_t k, real3 d)
+{
+    return make3(dot3(d, lane3(&v->t, k)), dot3(d, lane3(&v->b, k)), dot3(d, lane3(&v->up, k)));
+}
+
+static inline real3 lane_to_world(const vertex_list *v, size_t k, real3 d)
+{
+    return add3(add3(scale3(d.x, lane3(&v->t, k)), scale3(d.y, lane3(&v->b, k))), scale3(d.z, lane3(&v->up, k)));
+}
+
+/* Positive where wi and wo lie on the same side of the true surface for a reflection, and on opposite ones for light
+ * that goes through; interpolated normals can claim otherwise.  through: the sign bit for the latter, else 0. */
+static inline float true_side(const vertex_list *v, size_t k, real3 wi, uint32_t through)
+{
+    return real_of(bits_of(dot3(lane3(&v->normal, k), wi)*v->facing[k]) ^ through);
+}
+
+static void aim(vertex_list *v, bool is_implicit)
+{
+    const uint32_t is_any = !is_implicit;
+    for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
+        {
+            const size_t k = first + i;
+            const real3 direction = lane3(&v->light.direction, k), wi = lane_to_local(v, k, direction);
+            const uint32_t through = (bits_of(wi.z) ^ bits_of(v->wo.z[k])) & SIGN_BIT & v->transmits[k];
+            const float pdf = keep_if((v->light.is_delta[k] | is_any) != 0, v->light.pdf[k]);
+            v->light.pdf[k] = keep_if(true_side(v, k, direction, through) > 0, pdf);
+            v->wi.x[k] = wi.x;
+            v->wi.y[k] = wi.y;
+            v->wi.z[k] = wi.z;
+        }
+}
+
+/* The vertex's ray, from just off the surface. */
+static inline void leave(vertex_list *v, size_t k, real3 direction)
+{
+    const real3 origin = leave_surface(lane3(&v->position, k), lane3(&v->normal, k), v->offset[k], direction);
+    v->ray.origin.x[k] = origin.x;
+    v->ray.origin.y[k] = origin.y;
+    v->ray.origin.z[k] = origin.z;
+}
+
+static inline void carry(vertex_list *v, size_t k, real3 light)
+{
+    v->f.x[k] = light.x;
+    v->f.y[k] = light.y;
+    v->f.z[k] = light.z;
+}
+
+static void connect(vertex_list *v, bool is_mis)
+{
+    const uint32_t is_alone = !is_mis;
+    for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
+        {
+            const size_t k = first + i;
+            const real3 f = lane3(&v->f, k), direction = lane3(&v->light.direction, k);
+            const float pdf = v->light.pdf[k];
+            const int has_rival = (v->light.is_delta[k] | is_alone) == 0;
+            const float weight = power_heuristic(pdf, keep_if(has_rival, v->pdf[k]));
+            const int is_infinite = v->light.is_infinite[k] != 0;
+            v->keeps[k] = (pdf > 0) & (max_of3(f) > 0);
+            carry(v, k, mul3(lane3(&v->throughput, k), mul3(f, scale3(weight/pdf, lane3(&v->light.radiance, k)))));
+            leave(v, k, direction);
+            v->ray.direction.x[k] = is_infinite ? direction.x : v->light.target.x[k] - v->ray.origin.x[k];
+            v->ray.direction.y[k] = is_infinite ? direction.y : v->light.target.y[k] - v->ray.origin.y[k];
+            v->ray.direction.z[k] = is_infinite ? direction.z : v->light.target.z[k] - v->ray.origin.z[k];
+            v->ray.t_min[k] = 0;
+            v->ray.t_max[k] = is_infinite ? INFINITY : 1;
+            v->ray.seed[k] = v->u[0][k] ^ v->u[1][k];
+        }
+}
+
+/* What a smooth interface lets through has no other way. */
+#define THROUGH_GLASS (FACET_TRANSMISSION | FACET_DELTA)
+
+static void scatter(vertex_list *v, bool has_roulette)
+{
+    const float enough = has_roulette ? 1/ROULETTE_BELOW : REAL_MAX; /* else all that is not black goes on */
+    for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
+        {
+            const size_t k = first + i;
+            const real3 world = lane_to_world(v, k, lane3(&v->wi, k)), wi = scale3(1/length3(world), world);
+            const uint32_t through = (v->lobe[k] & FACET_TRANSMISSION) != 0 ? SIGN_BIT : 0;
+            const float side = (v->lobe[k] & THROUGH_GLASS) == THROUGH_GLASS ? 1 : true_side(v, k, wi, through);
+            const real3 throughput = mul3(lane3(&v->throughput, k), lane3(&v->f, k));
+            const float eta_scale = v->eta_scale[k]*v->eta[k]*v->eta[k];
+            /* Russian roulette: the paths that go on carry what the others would have. */
+            const float share = max_of3(throughput)*eta_scale*enough;
+            v->keeps[k] = fraction(v->chance[k]) < keep_if(v->pdf[k] > 0, keep_if(side > 0, share));
+            carry(v, k, scale3(1/kmin(share, 1), throughput));
+            v->eta_scale[k] = eta_scale;
+            leave(v, k, wi);
+            v->ray.direction.x[k] = wi.x;
+            v->ray.direction.y[k] = wi.y;
+            v->ray.direction.z[k] = wi.z;
+            v->ray.t_min[k] = 0;
+            v->ray.t_max[k] = INFINITY;
+            v->ray.seed[k] = v->u[0][k] ^ v->u[2][k];
+        }
+}
