@@ -8,6 +8,9 @@
 
 #include "render/stages.h"
 
+_Static_assert(PATHS%LOOP_LANES == 0, "arrays hold whole vectors");
+_Static_assert(ROOM*sizeof(float)%64 == 0, "arrays follow each other in whole cache lines");
+
 path_batch *path_batch_create(const scene *s)
 {
     path_batch *batch = aligned_alloc(64, (sizeof *batch + 63)/64*64);

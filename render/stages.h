@@ -22,11 +22,9 @@ enum { GROUP_CAMERA, GROUP_LIGHT, GROUP_SCATTER, GROUP_CHANCE, GROUPS_PER_EVENT 
 
 /* Arrays of a power of two would lie at equal offsets in their pages, and evict each other from the first cache. */
 enum { PATHS = TILE_SIZE*TILE_SIZE, ROOM = PATHS + 16 };
-_Static_assert(PATHS%LOOP_LANES == 0, "arrays hold whole vectors");
 
-/* Arrays after this begin with a cache line. */
+/* An array that begins with a cache line; so do those that follow it. */
 #define LINE_ALIGNED __attribute__((aligned(64)))
-_Static_assert(ROOM*sizeof(float)%64 == 0, "and so do those that follow");
 
 /* What sent a ray. */
 typedef enum path_origin { FROM_CAMERA, FROM_DELTA, FROM_LOBE } path_origin;
@@ -43,7 +41,6 @@ typedef struct ray_array {
 
 /* Paths that go on, and the ray that each follows, of unit direction.  Those that end are left out of the next list. */
 typedef struct path_list {
-    uint32_t n;
     LINE_ALIGNED uint32_t slot[ROOM];  /* pixel of the tile */
     uint32_t pixel[ROOM], index[ROOM]; /* sample_stream */
     ray_array ray;
@@ -52,6 +49,7 @@ typedef struct path_list {
     vector_array previous;   /* where the ray was scattered */
     float pdf_scatter[ROOM]; /* of its direction [1/sr] */
     uint8_t origin[ROOM];    /* path_origin */
+    uint32_t n;
 } path_list;
 
 /* Lights chosen for vertices (lights.h). */
@@ -106,15 +104,15 @@ typedef struct feature_list {
 struct path_batch {
     path_list lists[2];
     vector_array radiance; /* gathered so far, by slot */
-    feature_list features;
-    LINE_ALIGNED float t[ROOM], u[ROOM], v[ROOM];
+    float t[ROOM], u[ROOM], v[ROOM];
     uint32_t instance[ROOM], primitive[ROOM];
     uint32_t chance[3][ROOM];
-    vertex_list vertices;
-    plain_block plain; /* vertices whose surfaces are still to be found */
-    shadow_list shadows;
     uint32_t material[ROOM], order[ROOM]; /* of what the paths met; the paths by it */
-    uint32_t *n_of_material;              /* counts, then places, of one more than the scene's materials */
+    vertex_list vertices;
+    shadow_list shadows;
+    plain_block plain; /* vertices whose surfaces are still to be found */
+    feature_list features;
+    uint32_t *n_of_material; /* counts, then places, of one more than the scene's materials */
 };
 
 static inline vectors vectors_of(vector_array *a)
@@ -172,8 +170,8 @@ static inline void copy_ray(ray_array *to, uint32_t i, const ray_array *from, ui
 static inline ray get_ray(const ray_array *a, uint32_t i)
 {
     return (ray){.origin = {a->origin.x[i], a->origin.y[i], a->origin.z[i]},
-                 .direction = {a->direction.x[i], a->direction.y[i], a->direction.z[i]},
                  .t_min = a->t_min[i],
+                 .direction = {a->direction.x[i], a->direction.y[i], a->direction.z[i]},
                  .t_max = a->t_max[i],
                  .seed = a->seed[i]};
 }
