@@ -23,7 +23,7 @@ enum { GROUP_CAMERA, GROUP_LIGHT, GROUP_SCATTER, GROUP_CHANCE, GROUPS_PER_EVENT 
 /* Arrays of a power of two would lie at equal offsets in their pages, and evict each other from the first cache. */
 enum { PATHS = TILE_SIZE*TILE_SIZE, ROOM = PATHS + 16 };
 
-/* Arrays after this begin with a cache line. */
+/* An array that begins with a cache line; so do those that follow it. */
 #define LINE_ALIGNED __attribute__((aligned(64)))
 
 /* What sent a ray. */
@@ -41,7 +41,6 @@ typedef struct ray_array {
 
 /* Paths that go on, and the ray that each follows, of unit direction.  Those that end are left out of the next list. */
 typedef struct path_list {
-    uint32_t n;
     LINE_ALIGNED uint32_t slot[ROOM];  /* pixel of the tile */
     uint32_t pixel[ROOM], index[ROOM]; /* sample_stream */
     ray_array ray;
@@ -50,6 +49,7 @@ typedef struct path_list {
     vector_array previous;   /* where the ray was scattered */
     float pdf_scatter[ROOM]; /* of its direction [1/sr] */
     uint8_t origin[ROOM];    /* path_origin */
+    uint32_t n;
 } path_list;
 
 /* Lights chosen for vertices (lights.h). */
@@ -104,15 +104,15 @@ typedef struct feature_list {
 struct path_batch {
     path_list lists[2];
     vector_array radiance; /* gathered so far, by slot */
-    feature_list features;
-    LINE_ALIGNED float t[ROOM], u[ROOM], v[ROOM];
+    float t[ROOM], u[ROOM], v[ROOM];
     uint32_t instance[ROOM], primitive[ROOM];
     uint32_t chance[3][ROOM];
-    vertex_list vertices;
-    plain_block plain; /* vertices whose surfaces are still to be found */
-    shadow_list shadows;
     uint32_t material[ROOM], order[ROOM]; /* of what the paths met; the paths by it */
-    uint32_t *n_of_material;              /* counts, then places, of one more than the scene's materials */
+    vertex_list vertices;
+    shadow_list shadows;
+    plain_block plain; /* vertices whose surfaces are still to be found */
+    feature_list features;
+    uint32_t *n_of_material; /* counts, then places, of one more than the scene's materials */
 };
 
 static inline vectors vectors_of(vector_array *a)

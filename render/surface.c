@@ -74,7 +74,7 @@ facet_status surface_set_create(const scene *s, surface_set **result)
     if (!set) return FACET_NO_MEMORY;
     set->scene = s;
     set->placements = malloc((s->n_instances + 1)*sizeof *set->placements);
-    set->shadings = malloc((s->n_materials + 1)*sizeof *set->shadings);
+    set->shadings = calloc(s->n_materials + 1, sizeof *set->shadings);
     if (!set->placements || !set->shadings) {
         surface_set_destroy(set);
         return FACET_NO_MEMORY;

@@ -57,9 +57,9 @@ typedef struct plain_block {
     float to_world[3][4][LOOP_LANES], sign[LOOP_LANES], column[LOOP_LANES], offset[LOOP_LANES]; /* the instance's */
     uint32_t instance[LOOP_LANES];                                                              /* one more */
     uint32_t is_there[LOOP_LANES], is_smooth[LOOP_LANES]; /* all bits, or none; the latter: there are normals */
-    bool has_smooth;
-    float up[3][LOOP_LANES]; /* the loop's own: the frames' normals */
+    float up[3][LOOP_LANES];                              /* the loop's own: the frames' normals */
     uint32_t is_bent[LOOP_LANES];
+    bool has_smooth;
 } plain_block;
 
 /* Loads a hit into a lane, if it is of this kind. */

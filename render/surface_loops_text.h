@@ -1,4 +1,4 @@
-/* surface_loops_text.h: the loops that find plain surfaces (surface.h), a part of loops_text.h; as find_on_triangle does.
+/* surface_loops_text.h: the loops that find plain surfaces (surface.h) as surface.c does, a part of loops_text.h.
  * SPDX-License-Identifier: MIT */
 
 /* A row of the instance's map times d; the last column moves points. */
