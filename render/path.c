@@ -9,11 +9,7 @@
 #include "render/stages.h"
 
 _Static_assert(PATHS%LOOP_LANES == 0, "arrays hold whole vectors");
-<<<<<<< HEAD
-_Static_assert(ROOM*sizeof(float)%64 == 0, "arrays that follow a LINE_ALIGNED one begin with a cache line, too");
-=======
 _Static_assert(ROOM*sizeof(float)%64 == 0, "arrays follow each other in whole cache lines");
->>>>>>> fast
 
 path_batch *path_batch_create(const scene *s)
 {
