@@ -7,10 +7,10 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-#include "render/lanes.h"
 #include "render/light_triangle.h"
 #include "render/lights.h"
 #include "render/linear.h"
+#include "render/loop_lanes.h"
 #include "render/rays.h"
 #include "render/sampler.h"
 

@@ -5,7 +5,7 @@
 #include <stdbool.h>
 
 #include "render/geometry.h"
-#include "render/lanes.h"
+#include "render/loop_lanes.h"
 #include "render/scene.h"
 #include "render/tracer.h"
 

@@ -1,4 +1,4 @@
-/* lanes.h: how many elements the loops (loops.h) take at a time.
+/* loop_lanes.h: how many elements the loops (loops.h) take at a time.
  * SPDX-License-Identifier: MIT */
 #pragma once
 
