@@ -20,8 +20,8 @@ static const struct {
 } aovs[MOST_AOVS] = {
     {"albedo", {"albedo.R", "albedo.G", "albedo.B"}, FILM_ALBEDO, false},
     {"normal", {"normal.X", "normal.Y", "normal.Z"}, FILM_NORMAL, false},
-    {"distance", {"distance"}, FILM_DISTANCE, true},
-    {"samples", {"samples"}, FILM_SAMPLES, true},
+    {"distance", {"distance.Z"}, FILM_DISTANCE, true},
+    {"samples", {"samples.Y"}, FILM_SAMPLES, true},
     {"noisy", {"noisy.R", "noisy.G", "noisy.B"}, NOISY, false},
 };
 

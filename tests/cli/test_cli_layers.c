@@ -59,7 +59,7 @@ static bool holds(const char *name, const char *text)
 static void layers_stand_beside_the_picture(void **state)
 {
     (void)state;
-    static const char *const channels[] = {"albedo.R", "albedo.B", "normal.X", "normal.Z", "distance"};
+    static const char *const channels[] = {"albedo.R", "albedo.B", "normal.X", "normal.Z", "distance.Z", "samples.Y"};
     expect(RENDER("--spp", "3", "--quiet", "-o", "plain.exr"), 0, "");
     expect(RENDER("--spp", "3", "--quiet", "--aov", "normal,albedo,samples,distance", "-o", "all.exr", "-o", "all.png"),
            0, "");
@@ -112,7 +112,7 @@ static void shards_keep_what_layers_need(void **state)
     expect(RENDER("--spp", "4", "--quiet", "--shard", "2/2", "--checkpoint", "bare.ckpt"), 0, "");
     expect(RUN("merge", "2.ckpt", "1.ckpt", "--aov", "normal,samples", "-o", "merged.exr"), 0, "");
     expect(RUN("compare", "whole.exr", "merged.exr", "--metric", "mse", "--max", "0"), 0, "");
-    assert_true(holds("merged.exr", "normal.Y") && holds("merged.exr", "samples"));
+    assert_true(holds("merged.exr", "normal.Y") && holds("merged.exr", "samples.Y"));
     expect(RUN("merge", "2.ckpt", "1.ckpt", "--denoise", "--oidn", FACET_FAKE_OIDN, "-o", "merged.exr"), 0, "");
     expect(RUN("compare", "clean.exr", "merged.exr", "--metric", "mse", "--max", "0"), 0, "");
     expect(RUN("merge", "1.ckpt", "bare.ckpt", "-o", "x.exr"), 3,
