@@ -257,3 +257,15 @@ surface surface_of_hit(const scene *s, const ray *r, const hit *h, real3 wo)
     surface_set_destroy(set);
     return at;
 }
+
+scene *build_ball_and_lamp(void)
+{
+    scene *s = build_scene();
+    build_quad(s, build_material(s, "lambert kd=.6", 0, false), (const float[3]){-2, 0, 2}, (const float[3]){4, 0, 0},
+               (const float[3]){0, 0, -4});
+    build_sphere(s, build_material(s, "ggx alpha=.3 ks=.8", 0, false), 0, .5f, 0, .5f);
+    build_sphere(s, build_material(s, "lambert kd=0", 20, false), 1, 1.5f, .5f, .2f);
+    for (int k = 0; k < 3; k++) s->environment.scale[k] = .1f;
+    build_camera(s, (const float[3]){0, 1, 4}, (const float[3]){0, .5f, 0}, .8f);
+    return s;
+}

@@ -73,6 +73,9 @@ size_t build_texture(scene *s, size_t width, size_t height, const unsigned char 
 /* An environment map; the texels [height][width][3] are copied. */
 void build_sky(scene *s, size_t width, size_t height, const float *texels);
 
+/* A ball on a floor under a small lamp and a dim sky, with a camera: noise of several kinds, in less than a second. */
+scene *build_ball_and_lamp(void);
+
 /* width x height pixels, spp/SAMPLE_DIVISOR independent random samples each, on two threads. */
 render_settings random_settings(size_t width, size_t height, uint32_t spp);
 

@@ -13,22 +13,11 @@
 #include <cmocka.h>
 
 #include "render/path.h"
+#include "render/tile_plan.h"
 #include "tests/draws.h"
 #include "tests/scene_builder.h"
 
 enum { WIDTH = 71, HEIGHT = 53, MOST_STATES = 64 };
-
-static scene *ball_and_lamp(void)
-{
-    scene *s = build_scene();
-    build_quad(s, build_material(s, "lambert kd=.6", 0, false), (const float[3]){-2, 0, 2}, (const float[3]){4, 0, 0},
-               (const float[3]){0, 0, -4});
-    build_sphere(s, build_material(s, "ggx alpha=.3 ks=.8", 0, false), 0, .5f, 0, .5f);
-    build_sphere(s, build_material(s, "lambert kd=0", 20, false), 1, 1.5f, .5f, .2f);
-    for (int k = 0; k < 3; k++) s->environment.scale[k] = .1f;
-    build_camera(s, (const float[3]){0, 1, 4}, (const float[3]){0, .5f, 0}, .8f);
-    return s;
-}
 
 static render_settings settings(uint32_t spp)
 {
@@ -113,7 +102,7 @@ static render_state state_inside_a_pass(const render_state *before, const render
 /* From every state that a render saves, and from states inside its passes, on any number of threads. */
 static void check_all_continuations(render_settings r)
 {
-    scene *s = ball_and_lamp();
+    scene *s = build_ball_and_lamp();
     saved *all = calloc(1, sizeof *all);
     render_state whole = {0};
     render_result expected = {0};
@@ -157,11 +146,34 @@ static void a_continued_render_stops_at_the_same_noise(void **state)
     check_all_continuations(r);
 }
 
+/* A tile of 20 samples is inside the pass from 18 to 22: however quiet, it is judged at the end, and so is the picture. */
+static void nothing_is_judged_inside_a_pass(void **state)
+{
+    (void)state;
+    render_settings r = settings(100);
+    render_state made = {0};
+    tile_plan plan;
+    r.crop_w = 2*TILE_SIZE;
+    r.crop_h = TILE_SIZE;
+    r.noise_target = 0.5;
+    assert_int_equal(tile_plan_create(&r, &made, &plan, NULL), FACET_OK);
+    for (size_t x = 0; x < r.crop_w; x++)
+        for (size_t y = 0; y < r.crop_h; y++)
+            for (uint32_t k = 0; k < (x < TILE_SIZE ? 20u : 18u); k++)
+                film_add(&made.film, x, y, (const float[3]){1, 1, k & 1 ? 2 : 1});
+    made.mean_luminance = 1;
+    tile_plan_look(&plan);
+    assert_true(!plan.is_done[0] && plan.is_done[1]);
+    assert_true(plan.noise < r.noise_target && !tile_plan_is_quiet(&plan));
+    tile_plan_destroy(&plan);
+    render_state_destroy(&made);
+}
+
 /* Tiles end at different times, and none but those that are quiet enough. */
 static void each_tile_ends_at_its_own_noise(void **state)
 {
     (void)state;
-    scene *s = ball_and_lamp();
+    scene *s = build_ball_and_lamp();
     render_settings r = settings(4096);
     render_state made = {0};
     render_result result = {0};
@@ -213,7 +225,7 @@ static double true_noise(const image *picture, const image *reference)
 static void the_noise_that_is_promised_is_kept(void **state)
 {
     (void)state;
-    scene *s = ball_and_lamp();
+    scene *s = build_ball_and_lamp();
     render_settings r = settings(4096);
     render_state made = {0}, reference = {0};
     render_result result = {0}, exact = {0};
@@ -244,7 +256,7 @@ static bool refuse(void *user, const render_progress *progress)
 static void a_render_that_is_stopped_again_and_again_ends_the_same(void **state)
 {
     (void)state;
-    scene *s = ball_and_lamp();
+    scene *s = build_ball_and_lamp();
     render_settings r = settings(SAMPLE_DIVISOR > 1 ? 5 : 60);
     render_state whole = {0}, pieces = {0};
     render_result expected = {0}, result = {0};
@@ -272,7 +284,7 @@ static void shards_add_up_to_the_whole(void **state)
 {
     (void)state;
     static const uint32_t counts[] = {1, 2, 3, 5};
-    scene *s = ball_and_lamp();
+    scene *s = build_ball_and_lamp();
     render_settings r = settings(5);
     render_state whole = {0};
     render_result expected = {0};
@@ -320,7 +332,7 @@ static void shares_cover_all_samples_once(void **state)
 static void states_of_other_renders_are_refused(void **state)
 {
     (void)state;
-    scene *s = ball_and_lamp();
+    scene *s = build_ball_and_lamp();
     render_settings r = settings(2);
     render_state made = {0};
     render_result result = {0};
@@ -354,6 +366,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(a_continued_render_gives_the_bits_of_an_uninterrupted_one),
         cmocka_unit_test(a_continued_render_stops_at_the_same_noise),
+        cmocka_unit_test(nothing_is_judged_inside_a_pass),
         cmocka_unit_test(each_tile_ends_at_its_own_noise),
         cmocka_unit_test(the_noise_that_is_promised_is_kept),
         cmocka_unit_test(a_render_that_is_stopped_again_and_again_ends_the_same),
