@@ -146,7 +146,8 @@ static void a_continued_render_stops_at_the_same_noise(void **state)
     check_all_continuations(r);
 }
 
-/* A tile of 20 samples is inside the pass from 18 to 22: however quiet, it is judged at the end, and so is the picture. */
+/* A tile of 20 samples is inside the pass from 18 to 22: however quiet, it is judged at the end,
+   and so is the picture. */
 static void nothing_is_judged_inside_a_pass(void **state)
 {
     (void)state;
