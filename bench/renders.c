@@ -1,6 +1,7 @@
 /* renders.c: how fast pictures come, how near that is to the tracer's own rate, and how soon they are free of noise.
  *
  *     renders [--csv FILE] [--quick] [--only SCENE]
+ *     renders --export FOLDER     # only writes 70k.glb and 2M.glb there, for other renderers (bench/peers)
  *
  * For each scene of bench/parts/bench_scenes.h, at 512 x 512 and depth 8:
  * - paths and rays per second of CPU time, on one thread and on two in turn, medians of five runs;
@@ -23,6 +24,7 @@
 #include "bench/parts/bench_scenes.h"
 #include "bench/parts/build_scene.h"
 #include "bench/parts/ray_recorder.h"
+#include "bench/parts/write_glb.h"
 #include "render/render.h"
 #include "render/surface.h"
 
@@ -230,8 +232,26 @@ static void measure(const bench_scene *which, effort e, FILE *csv)
     scene_destroy(s);
 }
 
+static void export_scenes(const char *folder)
+{
+    static const char *const names[] = {"70k", "2M"};
+    for (size_t k = 0; k < sizeof names/sizeof *names; k++)
+        for (size_t i = 0; i < BENCH_SCENES; i++) {
+            char path[512];
+            if (strcmp(bench_scenes[i].name, names[k]) != 0) continue;
+            scene *s = bench_scenes[i].make();
+            snprintf(path, sizeof path, "%s/%s.glb", folder, names[k]);
+            write_glb(s, path);
+            scene_destroy(s);
+        }
+}
+
 int main(int argc, char **argv)
 {
+    if (argc == 3 && strcmp(argv[1], "--export") == 0) {
+        export_scenes(argv[2]);
+        return 0;
+    }
     FILE *csv = NULL;
     const char *only = NULL;
     effort e = {.rate_spp = 16, .error_spp = 64, .reference_spp = 256, .z_spp = 16};
@@ -244,7 +264,7 @@ int main(int argc, char **argv)
                          "alone_shadow_per_s,share_in_tracer,scaling_1_to_2,rmse,rmse_clipped,cpu_s_to_0.02,mean_r,"
                          "mean_g,mean_b,z_largest,z_share_beyond_1_percent,isa\n");
         else {
-            fprintf(stderr, "usage: renders [--csv FILE] [--quick] [--only SCENE]\n");
+            fprintf(stderr, "usage: renders [--csv FILE] [--quick] [--only SCENE] | --export FOLDER\n");
             return 2;
         }
     }

@@ -1,18 +1,18 @@
-/* light_loops_text.h: the loop over points that few triangles light, a part of loops_text.h.
+/* light_loops_text.h: the loops over points that triangles light, a part of loops_text.h.
  * SPDX-License-Identifier: MIT */
 
+/* ---- One of few ---------------------------------------------------------------------------------------------- */
+
 /* The triangle that is chosen for each point of a block. */
-typedef struct light_block {
+typedef struct light_choice {
     float x[BLOCK], y[BLOCK], z[BLOCK]; /* the points */
     float weights[MOST_WEIGHED][BLOCK], sum[BLOCK];
     double left[BLOCK]; /* of the number that chooses */
     uint32_t is_open[BLOCK], which[BLOCK];
     float weight[BLOCK];
-    float origin[3][BLOCK], edge1[3][BLOCK], edge2[3][BLOCK], normal[3][BLOCK], radiance[3][BLOCK];
-    float area[BLOCK], offset[BLOCK], lowest[BLOCK];
-} light_block;
+} light_choice;
 
-static void weigh_lights(light_block *b, uint32_t n_triangles, const light_triangle *triangles)
+static void weigh_lights(light_choice *b, uint32_t n_triangles, const light_triangle *triangles)
 {
     EACH_LANE(i) b->sum[i] = 0;
     for (uint32_t k = 0; k < n_triangles; k++) {
@@ -27,8 +27,8 @@ static void weigh_lights(light_block *b, uint32_t n_triangles, const light_trian
     }
 }
 
-/* As draw_weighted draws; u: 32-bit fractions. */
-static void draw_lights(light_block *b, uint32_t n_triangles, const uint32_t *u)
+/* In proportion to the weights; u: 32-bit fractions. */
+static void draw_lights(light_choice *b, uint32_t n_triangles, const uint32_t *u)
 {
     EACH_LANE(i)
     {
@@ -51,6 +51,69 @@ static void draw_lights(light_block *b, uint32_t n_triangles, const uint32_t *u)
     }
 }
 
+static void choose_light(uint32_t n_triangles, const light_triangle *triangles, size_t n, vectors from,
+                         const uint32_t *u, const light_triangle **chosen, float *probability)
+{
+    for (size_t first = 0; first < n; first += BLOCK) {
+        light_choice b;
+        EACH_LANE(i)
+        {
+            b.x[i] = from.x[first + i];
+            b.y[i] = from.y[first + i];
+            b.z[i] = from.z[first + i];
+        }
+        weigh_lights(&b, n_triangles, triangles);
+        draw_lights(&b, n_triangles, u + first);
+        EACH_LANE(i)
+        probability[first + i] = keep_if(b.sum[i] > 0, keep_if(b.sum[i] < INFINITY, b.weight[i]/b.sum[i]));
+        for (size_t i = 0; i < BLOCK; i++) chosen[first + i] = &triangles[b.which[i]];
+    }
+}
+
+/* ---- One of many --------------------------------------------------------------------------------------------- */
+
+/* All points of a block go down the tree together, so that the processor has other points to weigh for while it waits
+ * for one's node. */
+static void walk_light_tree(const light_tree *tree, size_t n, vectors from, double *u, uint32_t *which,
+                            float *probability)
+{
+    for (size_t first = 0; first < n; first += BLOCK) {
+        const size_t some = n - first < BLOCK ? n - first : BLOCK;
+        size_t open[BLOCK], n_open = some;
+        uint32_t next[BLOCK];
+        double product[BLOCK];
+        for (size_t i = 0; i < some; i++) {
+            open[i] = i;
+            next[i] = 0;
+            product[i] = 1;
+        }
+        while (n_open > 0) {
+            size_t n_kept = 0;
+            for (size_t j = 0; j < n_open; j++) {
+                const size_t i = open[j], k = first + i;
+                product[i] *= light_node_draw(&tree->nodes[next[i]], make3(from.x[k], from.y[k], from.z[k]), &u[k],
+                                              &next[i]);
+                if (!(product[i] > 0) || next[i] & LIGHT_NODE_LEAF) continue;
+                expect_light_node(&tree->nodes[next[i]]);
+                open[n_kept++] = i;
+            }
+            n_open = n_kept;
+        }
+        for (size_t i = 0; i < some; i++) {
+            which[first + i] = next[i] & ~LIGHT_NODE_LEAF;
+            probability[first + i] = (float)product[i];
+        }
+    }
+}
+
+/* ---- A point on it ------------------------------------------------------------------------------------------- */
+
+/* What the points need of their triangles. */
+typedef struct light_block {
+    float origin[3][BLOCK], edge1[3][BLOCK], edge2[3][BLOCK], normal[3][BLOCK], radiance[3][BLOCK];
+    float area[BLOCK], offset[BLOCK], lowest[BLOCK];
+} light_block;
+
 static inline void put3(float to[3][BLOCK], size_t i, real3 v)
 {
     to[0][i] = v.x;
@@ -63,11 +126,10 @@ static inline real3 take3(float from[3][BLOCK], size_t i)
     return make3(from[0][i], from[1][i], from[2][i]);
 }
 
-/* Copies what the points need of the triangles. */
-static void load_lights(light_block *b, const light_triangle *triangles)
+static void load_lights(light_block *b, const light_triangle *const *triangles)
 {
     for (size_t i = 0; i < BLOCK; i++) {
-        const light_triangle *chosen = &triangles[b->which[i]];
+        const light_triangle *chosen = triangles[i];
         put3(b->origin, i, chosen->origin);
         put3(b->edge1, i, chosen->edge1);
         put3(b->edge2, i, chosen->edge2);
@@ -79,20 +141,12 @@ static void load_lights(light_block *b, const light_triangle *triangles)
     }
 }
 
-static void light(uint32_t n_triangles, const light_triangle *triangles, size_t n, vectors from, uint32_t *const u[3],
-                  light_samples s)
+static void light(const light_triangle *const *chosen, const float *probability, size_t n, vectors from,
+                  uint32_t *const u[3], light_samples s)
 {
     for (size_t first = 0; first < n; first += BLOCK) {
         light_block b;
-        EACH_LANE(i)
-        {
-            b.x[i] = from.x[first + i];
-            b.y[i] = from.y[first + i];
-            b.z[i] = from.z[first + i];
-        }
-        weigh_lights(&b, n_triangles, triangles);
-        draw_lights(&b, n_triangles, u[0] + first);
-        load_lights(&b, triangles);
+        load_lights(&b, chosen + first);
         EACH_LANE(i)
         {
             const size_t k = first + i;
@@ -104,7 +158,8 @@ static void light(uint32_t n_triangles, const light_triangle *triangles, size_t 
                                       .offset = b.offset[i],
                                       .lowest = b.lowest[i]};
             const real2 weights = light_triangle_weights(fraction(u[1][k]), fraction(u[2][k]));
-            const light_triangle_point point = light_triangle_sample(e, make3(b.x[i], b.y[i], b.z[i]), weights);
+            const light_triangle_point point = light_triangle_sample(e, make3(from.x[k], from.y[k], from.z[k]),
+                                                                     weights);
             s.direction.x[k] = point.direction.x;
             s.direction.y[k] = point.direction.y;
             s.direction.z[k] = point.direction.z;
@@ -114,7 +169,7 @@ static void light(uint32_t n_triangles, const light_triangle *triangles, size_t 
             s.radiance.x[k] = b.radiance[0][i];
             s.radiance.y[k] = b.radiance[1][i];
             s.radiance.z[k] = b.radiance[2][i];
-            s.pdf[k] = keep_if(b.sum[i] > 0, keep_if(b.sum[i] < INFINITY, point.pdf*(b.weight[i]/b.sum[i])));
+            s.pdf[k] = point.pdf*probability[k];
             s.is_infinite[k] = s.is_delta[k] = 0;
         }
     }

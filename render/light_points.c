@@ -19,8 +19,8 @@ const sky *light_set_sky(const light_set *set)
     return &set->sky;
 }
 
-/* A point of a triangle. */
-static light_sample sample_triangle(const light_set *set, const emitter *e, real3 from, float u, float v)
+/* A point of a triangle whose emission has a texture. */
+static light_sample sample_uneven_triangle(const light_set *set, const emitter *e, real3 from, float u, float v)
 {
     const real2 weights = light_triangle_weights(u, v);
     const light_triangle_point point = light_triangle_sample(e->triangle, from, weights);
@@ -28,8 +28,7 @@ static light_sample sample_triangle(const light_set *set, const emitter *e, real
     return (light_sample){.direction = point.direction,
                           .target = point.target,
                           .pdf = point.pdf,
-                          .radiance = e->is_even ? e->triangle.radiance
-                                                 : surface_emission(set->scene, m, e->primitive, weights.x, weights.y)};
+                          .radiance = surface_emission(set->scene, m, e->primitive, weights.x, weights.y)};
 }
 
 /* 1 - cos of the half angle under which a sphere is seen, from sin^2; exact for far spheres. */
@@ -137,6 +136,25 @@ static uint32_t digits_of(double fraction)
     return fraction*0x1p32 < 0x1p32 - 1 ? (uint32_t)(fraction*0x1p32) : UINT32_MAX;
 }
 
+/* Draws an index with probability weights[i]/sum, where sum > 0 is that of the weights in their order, by *u in [0,1),
+ * of which it leaves the rest. */
+static uint32_t draw_weighted(const float *weights, uint32_t n, float sum, double *u)
+{
+    double left = *u*(double)sum;
+    uint32_t index = 0, last = 0;
+    for (; index < n; left -= (double)weights[index++]) {
+        if (weights[index] > 0) last = index;
+        if (left < (double)weights[index]) break;
+    }
+    if (index == n) { /* rounding at the upper end */
+        index = last;
+        left = 0;
+    }
+    const double rest = left/(double)weights[index];
+    *u = rest < 1 ? rest : 0;
+    return index;
+}
+
 /* The probability that one of many emitters is chosen among those with a place. */
 static float share_of_placed(const light_set *set, real3 from)
 {
@@ -145,25 +163,39 @@ static float share_of_placed(const light_set *set, real3 from)
     return irradiance/(irradiance + set->distant_weight);
 }
 
-static uint32_t choose_of_many(const light_set *set, real3 from, double *u, float *probability)
+/* One of those that are equally far from all points. */
+static uint32_t choose_distant(const light_set *set, double *u, float *probability)
 {
-    const float share = share_of_placed(set, from), shares[2] = {share, 1 - share};
-    uint32_t index = 0;
-    if (draw_weighted(shares, 2, 1, u) == 0) {
-        *probability = (float)((double)share*light_tree_draw(&set->placed, from, u, &index));
-        return index;
-    }
     uint32_t rest;
-    index = alias_table_draw(&set->distant, digits_of(*u), &rest);
+    const uint32_t index = alias_table_draw(&set->distant, digits_of(*u), &rest);
     *u = (double)rest*0x1p-32;
-    *probability = (1 - share)*set->distant.cells[index].probability;
+    *probability = set->distant.cells[index].probability;
     return set->n_placed + index;
 }
 
-/* Chooses an emitter for a point by *u in [0,1), of which it leaves the rest; *probability of it: 0 for none. */
+/* choose_emitter by the tree, for a block of points. */
+static void choose_of_many(const light_set *set, size_t n, vectors from, double *u, uint32_t *which, float *probability)
+{
+    float shares[LOOP_LANES];
+    uint32_t is_distant[LOOP_LANES];
+    for (size_t i = 0; i < n; i++) {
+        const float share = share_of_placed(set, make3(from.x[i], from.y[i], from.z[i])), both[2] = {share, 1 - share};
+        is_distant[i] = draw_weighted(both, 2, 1, &u[i]);
+        shares[i] = both[is_distant[i]];
+    }
+    double placed[LOOP_LANES];
+    memcpy(placed, u, n*sizeof *placed);
+    render_loops_chosen()->walk_light_tree(&set->placed, n, from, placed, which, probability);
+    for (size_t i = 0; i < n; i++) {
+        if (is_distant[i]) which[i] = choose_distant(set, &u[i], &probability[i]);
+        else u[i] = placed[i];
+        probability[i] *= shares[i];
+    }
+}
+
+/* Chooses one of few emitters for a point by *u in [0,1), of which it leaves the rest; *probability of it: 0: none. */
 static uint32_t choose_emitter(const light_set *set, real3 from, double *u, float *probability)
 {
-    if (set->n_emitters > MOST_WEIGHED) return choose_of_many(set, from, u, probability);
     float weights[MOST_WEIGHED], sum = 0;
     for (uint32_t i = 0; i < set->n_emitters; i++) sum += weights[i] = importance(set, &set->emitters[i], from);
     *probability = 0;
@@ -186,28 +218,18 @@ static float choice_probability(const light_set *set, real3 from, size_t index)
     return sum > 0 && sum < INFINITY ? importance(set, &set->emitters[index], from)/sum : 0;
 }
 
-static light_sample sample_one(const light_set *set, real3 from, const uint32_t u[3])
+/* Not an even triangle; choice: what is left of the number by which it was chosen. */
+static light_sample sample_other(const light_set *set, const emitter *e, real3 from, double choice, float v, float w)
 {
-    light_sample s = {.pdf = 0};
-    if (set->n_emitters == 0) return s;
-    /* Choosing among many takes more digits than u[0] has, and the sky's texel what is left of them. */
-    double choice = (double)u[0]*0x1p-32 + (double)hash_pair(u[0], u[1] ^ u[2])*0x1p-64;
-    float probability;
-    const uint32_t index = choose_emitter(set, from, &choice, &probability);
-    if (!(probability > 0)) return s;
-    const emitter *e = &set->emitters[index];
-    const float v = fraction(u[1]), w = fraction(u[2]);
     switch (e->kind) {
-    case EMITTER_TRIANGLE: s = sample_triangle(set, e, from, v, w); break;
-    case EMITTER_SPHERE: s = sample_sphere(set, e, from, v, w); break;
-    case EMITTER_PUNCTUAL: s = sample_punctual(set, e, from); break;
-    case EMITTER_SKY:
-        s.direction = sky_sample(&set->sky, digits_of(choice), v, w, &s.pdf);
-        s.radiance = sky_radiance(&set->sky, s.direction);
-        s.is_infinite = true;
-        break;
+    case EMITTER_TRIANGLE: return sample_uneven_triangle(set, e, from, v, w);
+    case EMITTER_SPHERE: return sample_sphere(set, e, from, v, w);
+    case EMITTER_PUNCTUAL: return sample_punctual(set, e, from);
+    case EMITTER_SKY: break;
     }
-    s.pdf *= probability;
+    light_sample s = {.is_infinite = true};
+    s.direction = sky_sample(&set->sky, digits_of(choice), v, w, &s.pdf);
+    s.radiance = sky_radiance(&set->sky, s.direction);
     return s;
 }
 
@@ -225,16 +247,62 @@ static void set_sample(light_samples s, size_t i, const light_sample *light)
     s.is_delta[i] = light->is_delta;
 }
 
+static vectors vectors_from(vectors v, size_t first)
+{
+    return (vectors){v.x + first, v.y + first, v.z + first};
+}
+
+/* A block of no more than LOOP_LANES points. */
+static void sample_block(const light_set *set, size_t n, vectors from, uint32_t *const u[3], light_samples s)
+{
+    static const light_triangle dark = {.area = 0};
+    const render_loops *loops = render_loops_chosen();
+    const light_triangle *chosen[LOOP_LANES];
+    uint32_t which[LOOP_LANES];
+    float probability[LOOP_LANES] = {0};
+    double choice[LOOP_LANES];
+    /* Choosing among many takes more digits than u[0] has, and the sky's texel what is left of them. */
+    for (size_t i = 0; i < n; i++)
+        choice[i] = (double)u[0][i]*0x1p-32 + (double)hash_pair(u[0][i], u[1][i] ^ u[2][i])*0x1p-64;
+    if (set->n_emitters > MOST_WEIGHED) choose_of_many(set, n, from, choice, which, probability);
+    else
+        for (size_t i = 0; i < n; i++)
+            which[i] = choose_emitter(set, make3(from.x[i], from.y[i], from.z[i]), &choice[i], &probability[i]);
+    for (size_t i = 0; i < LOOP_LANES; i++) {
+        const bool is_even = i < n && probability[i] > 0 && set->emitters[which[i]].is_even;
+        chosen[i] = is_even ? &set->emitters[which[i]].triangle : &dark;
+    }
+    loops->light(chosen, probability, n, from, u, s);
+    for (size_t i = 0; i < n; i++) {
+        if (chosen[i] != &dark || !(probability[i] > 0)) continue;
+        light_sample light = sample_other(set, &set->emitters[which[i]], make3(from.x[i], from.y[i], from.z[i]),
+                                          choice[i], fraction(u[1][i]), fraction(u[2][i]));
+        light.pdf *= probability[i];
+        set_sample(s, i, &light);
+    }
+}
+
 void light_set_sample_many(const light_set *set, size_t n, vectors from, uint32_t *const u[3], light_samples s)
 {
-    if (set->is_plain) {
-        render_loops_chosen()->light(set->n_emitters, set->triangles, n, from, u, s);
-        return;
-    }
-    for (size_t i = 0; i < n; i++) {
-        const uint32_t numbers[3] = {u[0][i], u[1][i], u[2][i]};
-        const light_sample light = sample_one(set, make3(from.x[i], from.y[i], from.z[i]), numbers);
-        set_sample(s, i, &light);
+    const render_loops *loops = render_loops_chosen();
+    for (size_t first = 0; first < n; first += LOOP_LANES) {
+        const size_t some = n - first < LOOP_LANES ? n - first : LOOP_LANES;
+        uint32_t *const numbers[3] = {u[0] + first, u[1] + first, u[2] + first};
+        const light_samples samples = {.direction = vectors_from(s.direction, first),
+                                       .target = vectors_from(s.target, first),
+                                       .radiance = vectors_from(s.radiance, first),
+                                       .pdf = s.pdf + first,
+                                       .is_infinite = s.is_infinite + first,
+                                       .is_delta = s.is_delta + first};
+        if (!set->is_plain) {
+            sample_block(set, some, vectors_from(from, first), numbers, samples);
+            continue;
+        }
+        const light_triangle *chosen[LOOP_LANES];
+        float probability[LOOP_LANES];
+        loops->choose_light(set->n_emitters, set->triangles, some, vectors_from(from, first), numbers[0], chosen,
+                            probability);
+        loops->light(chosen, probability, some, vectors_from(from, first), numbers, samples);
     }
 }
 

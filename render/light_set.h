@@ -17,7 +17,7 @@ typedef struct emitter {
     emitter_kind kind;
     uint32_t instance, primitive; /* triangle; primitive alone: sphere or punctual light */
     bool is_double_sided;
-    bool is_even;            /* triangle: emits the same radiance everywhere */
+    bool is_even;            /* a triangle that emits the same radiance everywhere */
     light_triangle triangle; /* light_triangle.h */
     float offset;            /* how far shadow rays stop from a sphere [m] */
     float strength;          /* mean radiance, or intensity, or irradiance of a directional light (luminances) */

@@ -65,9 +65,6 @@ double light_tree_draw(const light_tree *tree, real3 from, double *u, uint32_t *
 /* The probability with which light_tree_draw draws this one. */
 double light_tree_probability(const light_tree *tree, real3 from, uint32_t light);
 
-/* Draws an index with probability weights[i]/sum, where sum > 0 is that of the weights in their order; u as above. */
-uint32_t draw_weighted(const float *weights, uint32_t n, float sum, double *u);
-
 #ifdef __cplusplus
 }
 #endif

@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+#include "render/light_tree.h"
 #include "render/light_triangle.h"
 #include "render/lights.h"
 #include "render/linear.h"
@@ -30,9 +31,15 @@ typedef struct render_loops {
                    uint32_t *const u[3]);
     /* Vertices from `first`, the first of a block, on: those in the block's hits; wi: wo in world space. */
     void (*meet)(struct vertex_list *v, size_t first, plain_block *block);
-    /* For each of n points one of the triangles, and a point on it; lights.h. */
-    void (*light)(uint32_t n_triangles, const light_triangle *triangles, size_t n, vectors from, uint32_t *const u[3],
-                  light_samples s);
+    /* For each of n points one of no more than MOST_WEIGHED triangles, by 32-bit fractions, and its probability; 0: none. */
+    void (*choose_light)(uint32_t n_triangles, const light_triangle *triangles, size_t n, vectors from,
+                         const uint32_t *u, const light_triangle **chosen, float *probability);
+    /* light_tree_draw for n points. */
+    void (*walk_light_tree)(const light_tree *tree, size_t n, vectors from, double *u, uint32_t *which,
+                            float *probability);
+    /* For each of n points one on its triangle, as light_set_sample (lights.h). */
+    void (*light)(const light_triangle *const *chosen, const float *probability, size_t n, vectors from,
+                  uint32_t *const u[3], light_samples s);
     /* wi towards the lights; none where a light lies on the other side of the true surface than of the shading frame.
      * is_implicit: none but delta lights. */
     void (*aim)(struct vertex_list *v, bool is_implicit);

@@ -1,5 +1,6 @@
 /* loops_text.h: the loops of loops.h, compiled once per instruction set: RENDER_LOOPS names the table.
  * SPDX-License-Identifier: MIT */
+#include "render/light_node.h"
 #include "render/loops.h"
 #include "render/sampler_point.h"
 
@@ -178,6 +179,8 @@ const render_loops RENDER_LOOPS = {.name = RENDER_LOOPS_NAME,
                                    .blocked = blocked,
                                    .points = points,
                                    .meet = meet,
+                                   .choose_light = choose_light,
+                                   .walk_light_tree = walk_light_tree,
                                    .light = light,
                                    .aim = aim,
                                    .connect = connect,
