@@ -5,25 +5,22 @@
 
 /* The triangle that is chosen for each point of a block. */
 typedef struct light_choice {
-    float x[BLOCK], y[BLOCK], z[BLOCK]; /* the points */
     float weights[MOST_WEIGHED][BLOCK], sum[BLOCK];
     double left[BLOCK]; /* of the number that chooses */
     uint32_t is_open[BLOCK], which[BLOCK];
     float weight[BLOCK];
 } light_choice;
 
-static void weigh_lights(light_choice *b, uint32_t n_triangles, const light_triangle *triangles)
+static void weigh_lights(light_choice *b, uint32_t n_triangles, const light_triangle *triangles, light_receivers to,
+                         bool has_receivers)
 {
     EACH_LANE(i) b->sum[i] = 0;
     for (uint32_t k = 0; k < n_triangles; k++) {
         const light_triangle given = triangles[k];
         float *restrict const weights = b->weights[k];
-        EACH_LANE(i)
-        {
-            const float weight = light_triangle_importance(given, make3(b->x[i], b->y[i], b->z[i]));
-            weights[i] = weight;
-            b->sum[i] += weight;
-        }
+        if (has_receivers) EACH_LANE(i) weights[i] = light_triangle_importance(given, receiver_at(to, i));
+        else EACH_LANE(i) weights[i] = light_triangle_importance(given, receiver_anywhere(position_at(to, i)));
+        EACH_LANE(i) b->sum[i] += weights[i];
     }
 }
 
@@ -51,18 +48,12 @@ static void draw_lights(light_choice *b, uint32_t n_triangles, const uint32_t *u
     }
 }
 
-static void choose_light(uint32_t n_triangles, const light_triangle *triangles, size_t n, vectors from,
-                         const uint32_t *u, const light_triangle **chosen, float *probability)
+static void choose_light(uint32_t n_triangles, const light_triangle *triangles, size_t n, light_receivers to,
+                         bool has_receivers, const uint32_t *u, const light_triangle **chosen, float *probability)
 {
     for (size_t first = 0; first < n; first += BLOCK) {
         light_choice b;
-        EACH_LANE(i)
-        {
-            b.x[i] = from.x[first + i];
-            b.y[i] = from.y[first + i];
-            b.z[i] = from.z[first + i];
-        }
-        weigh_lights(&b, n_triangles, triangles);
+        weigh_lights(&b, n_triangles, triangles, receivers_from(to, first), has_receivers);
         draw_lights(&b, n_triangles, u + first);
         EACH_LANE(i)
         probability[first + i] = keep_if(b.sum[i] > 0, keep_if(b.sum[i] < INFINITY, b.weight[i]/b.sum[i]));
@@ -74,7 +65,7 @@ static void choose_light(uint32_t n_triangles, const light_triangle *triangles, 
 
 /* All points of a block go down the tree together, so that the processor has other points to weigh for while it waits
  * for one's node. */
-static void walk_light_tree(const light_tree *tree, size_t n, vectors from, double *u, uint32_t *which,
+static void walk_light_tree(const light_tree *tree, size_t n, light_receivers to, double *u, uint32_t *which,
                             float *probability)
 {
     for (size_t first = 0; first < n; first += BLOCK) {
@@ -91,8 +82,8 @@ static void walk_light_tree(const light_tree *tree, size_t n, vectors from, doub
             size_t n_kept = 0;
             for (size_t j = 0; j < n_open; j++) {
                 const size_t i = open[j], k = first + i;
-                product[i] *= light_node_draw(&tree->nodes[next[i]], make3(from.x[k], from.y[k], from.z[k]), &u[k],
-                                              &next[i]);
+                const light_receiver receiver = receiver_at(to, k);
+                product[i] *= light_node_draw(&tree->nodes[next[i]], &receiver, &u[k], &next[i]);
                 if (!(product[i] > 0) || next[i] & LIGHT_NODE_LEAF) continue;
                 expect_light_node(&tree->nodes[next[i]]);
                 open[n_kept++] = i;

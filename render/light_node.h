@@ -10,9 +10,6 @@
 extern "C" {
 #endif
 
-/* Rounding may take a cosine this far down, and no further. */
-#define LIGHT_COSINE_ERROR 1e-5f
-
 /* Weights stay in a range whose sums are finite. */
 #define LEAST_LIGHT_WEIGHT REAL_MIN
 #define MOST_LIGHT_WEIGHT 1e36f
@@ -20,13 +17,15 @@ extern "C" {
 /* The weights of a node's children for a point, and their sum.  Distances count as half the radius at least: the
  * mean of 1/d^2 over a cube is 5.8/r^2 at its centre, 3.4/r^2 on a face and 1.4/r^2 at a corner.  Children that a wide
  * cone may turn to the point have a tenth of their bound at least, however their mean axis lies. */
-static inline float light_node_weigh(const light_node *node, real3 from, float weights[LIGHT_NODE_WIDTH])
+static inline float light_node_weigh(const light_node *node, const light_receiver *to, float weights[LIGHT_NODE_WIDTH])
 {
+    const light_receiver at = *to;
+    const real3 from = at.position;
     _Pragma("omp simd") for (int k = 0; k < LIGHT_NODE_WIDTH; k++)
     {
         const float x = from.x - node->x[k], y = from.y - node->y[k], z = from.z - node->z[k];
-        const float d2 = x*x + y*y + z*z, radius = node->radius[k], r2 = radius*radius;
-        const float inverse = 1/ksqrt(kmax(d2, REAL_MIN));
+        const float d2 = kmax(x*x + y*y + z*z, REAL_MIN), d = ksqrt(d2), inverse = 1/d;
+        const float radius = node->radius[k], r2 = radius*radius;
         /* The angle to the axis, ... */
         const float cos = (x*node->axis_x[k] + y*node->axis_y[k] + z*node->axis_z[k])*inverse;
         const float cos0 = kmin(kmax(cos, node->back[k]*cos), 1), sin0 = ksqrt(kmax(1 - cos0*cos0, 0));
@@ -40,8 +39,9 @@ static inline float light_node_weigh(const light_node *node, real3 from, float w
         const int is_in_size = (d2 <= r2) | (cos1 >= cos_size);
         const float cos2 = is_in_size ? 1 : cos1*cos_size + sin1*sin_size;
         const float intensity = node->around[k] + node->along[k]*kmax(cos0, 0.1f*cos2);
-        const float weight = intensity/kmax(kmax(d2, 0.25f*r2), REAL_MIN);
-        const int is_lit = (cos2 >= node->cos_spread[k] - LIGHT_COSINE_ERROR) & (node->along[k] > 0);
+        const float taken = light_received(at, make3(x, y, z), d, radius);
+        const float weight = taken*intensity/kmax(d2, 0.25f*r2);
+        const int is_lit = (cos2 >= node->cos_spread[k] - LIGHT_COSINE_ERROR) & (node->along[k] > 0) & (taken > 0);
         weights[k] = is_lit ? kmin(kmax(weight, LEAST_LIGHT_WEIGHT), MOST_LIGHT_WEIGHT) : 0;
     }
     float sum = 0;
@@ -57,11 +57,11 @@ static inline void expect_light_node(const light_node *node)
 
 /* Draws a child for a point by *u in [0,1), of which it leaves the rest; its probability, 0 where all prove dark.  The
  * ends of the children's shares are counted rather than searched, since no processor foresees where a search stops. */
-static inline double light_node_draw(const light_node *node, real3 from, double *u, uint32_t *child)
+static inline double light_node_draw(const light_node *node, const light_receiver *to, double *u, uint32_t *child)
 {
     float weights[LIGHT_NODE_WIDTH];
     double ends[LIGHT_NODE_WIDTH + 1];
-    const float sum = light_node_weigh(node, from, weights);
+    const float sum = light_node_weigh(node, to, weights);
     if (!(sum > 0)) return 0;
     ends[0] = 0;
     for (int k = 0; k < LIGHT_NODE_WIDTH; k++) ends[k + 1] = ends[k] + (double)weights[k];

@@ -14,6 +14,11 @@ bool light_set_is_empty(const light_set *set)
     return set->n_emitters == 0;
 }
 
+bool light_set_needs_receivers(const light_set *set)
+{
+    return set->needs_receivers;
+}
+
 const sky *light_set_sky(const light_set *set)
 {
     return &set->sky;
@@ -108,26 +113,28 @@ static light_sample sample_punctual(const light_set *set, const emitter *e, real
     return s;
 }
 
-/* About the irradiance that an emitter brings to a point, whatever the surface there: what it is chosen by.  0 only
- * where it brings none. */
-static float importance(const light_set *set, const emitter *e, real3 from)
+/* About what is taken up of an emitter's light at a point: what it is chosen by.  0 only where that is nothing. */
+static float importance(const light_set *set, const emitter *e, const light_receiver *to)
 {
     switch (e->kind) {
-    case EMITTER_TRIANGLE: return light_triangle_importance(e->triangle, from);
+    case EMITTER_TRIANGLE: return light_triangle_importance(e->triangle, *to);
     case EMITTER_SPHERE: {
         const sphere *sp = &set->scene->spheres[e->primitive];
-        const real3 axis = sub3(vector_of(sp->center), from);
-        const float r2 = sp->radius*sp->radius;
-        return e->strength*PI*r2/kmax(dot3(axis, axis), r2);
+        const real3 away = sub3(to->position, vector_of(sp->center));
+        const float r2 = sp->radius*sp->radius, d2 = kmax(dot3(away, away), REAL_MIN);
+        return e->strength*PI*r2/kmax(d2, r2)*light_received(*to, away, ksqrt(d2), sp->radius);
     }
     case EMITTER_PUNCTUAL: {
         const punctual_light *light = &set->scene->lights[e->primitive];
-        const real3 to_light = sub3(vector_of(light->position), from);
-        return light->kind == LIGHT_DIRECTIONAL ? e->strength : e->strength/kmax(dot3(to_light, to_light), 1e-12f);
+        if (light->kind == LIGHT_DIRECTIONAL)
+            return e->strength*light_received(*to, vector_of(light->direction), 1, 0);
+        const real3 away = sub3(to->position, vector_of(light->position));
+        const float d2 = kmax(dot3(away, away), 1e-12f);
+        return e->strength/d2*light_received(*to, away, ksqrt(d2), 0);
     }
     case EMITTER_SKY: break;
     }
-    return distant_importance(e);
+    return e->strength*light_received_of_all(*to);
 }
 
 /* The 32 digits of a fraction. */
@@ -156,11 +163,11 @@ static uint32_t draw_weighted(const float *weights, uint32_t n, float sum, doubl
 }
 
 /* The probability that one of many emitters is chosen among those with a place. */
-static float share_of_placed(const light_set *set, real3 from)
+static float share_of_placed(const light_set *set, const light_receiver *to)
 {
     if (!(set->distant_weight > 0)) return 1;
-    const float irradiance = light_tree_irradiance(&set->placed, from);
-    return irradiance/(irradiance + set->distant_weight);
+    const float placed = light_tree_weight(&set->placed, to);
+    return placed/(placed + set->distant_weight*INV_PI*light_received_of_all(*to));
 }
 
 /* One of those that are equally far from all points. */
@@ -174,18 +181,20 @@ static uint32_t choose_distant(const light_set *set, double *u, float *probabili
 }
 
 /* choose_emitter by the tree, for a block of points. */
-static void choose_of_many(const light_set *set, size_t n, vectors from, double *u, uint32_t *which, float *probability)
+static void choose_of_many(const light_set *set, size_t n, light_receivers to, double *u, uint32_t *which,
+                           float *probability)
 {
     float shares[LOOP_LANES];
     uint32_t is_distant[LOOP_LANES];
     for (size_t i = 0; i < n; i++) {
-        const float share = share_of_placed(set, make3(from.x[i], from.y[i], from.z[i])), both[2] = {share, 1 - share};
+        const light_receiver at = receiver_at(to, i);
+        const float share = share_of_placed(set, &at), both[2] = {share, 1 - share};
         is_distant[i] = draw_weighted(both, 2, 1, &u[i]);
         shares[i] = both[is_distant[i]];
     }
     double placed[LOOP_LANES];
     memcpy(placed, u, n*sizeof *placed);
-    render_loops_chosen()->walk_light_tree(&set->placed, n, from, placed, which, probability);
+    render_loops_chosen()->walk_light_tree(&set->placed, n, to, placed, which, probability);
     for (size_t i = 0; i < n; i++) {
         if (is_distant[i]) which[i] = choose_distant(set, &u[i], &probability[i]);
         else u[i] = placed[i];
@@ -194,10 +203,10 @@ static void choose_of_many(const light_set *set, size_t n, vectors from, double 
 }
 
 /* Chooses one of few emitters for a point by *u in [0,1), of which it leaves the rest; *probability of it: 0: none. */
-static uint32_t choose_emitter(const light_set *set, real3 from, double *u, float *probability)
+static uint32_t choose_emitter(const light_set *set, const light_receiver *to, double *u, float *probability)
 {
     float weights[MOST_WEIGHED], sum = 0;
-    for (uint32_t i = 0; i < set->n_emitters; i++) sum += weights[i] = importance(set, &set->emitters[i], from);
+    for (uint32_t i = 0; i < set->n_emitters; i++) sum += weights[i] = importance(set, &set->emitters[i], to);
     *probability = 0;
     if (!(sum > 0 && sum < INFINITY)) return 0;
     const uint32_t index = draw_weighted(weights, set->n_emitters, sum, u);
@@ -206,16 +215,17 @@ static uint32_t choose_emitter(const light_set *set, real3 from, double *u, floa
 }
 
 /* The probability with which choose_emitter chooses this one. */
-static float choice_probability(const light_set *set, real3 from, size_t index)
+static float choice_probability(const light_set *set, const light_receiver *to, size_t index)
 {
     if (set->n_emitters > MOST_WEIGHED) {
-        const float share = share_of_placed(set, from);
+        const float share = share_of_placed(set, to);
         if (index >= set->n_placed) return (1 - share)*set->distant.cells[index - set->n_placed].probability;
-        return (float)((double)share*light_tree_probability(&set->placed, from, (uint32_t)index));
+        return (float)((double)share*light_tree_probability(&set->placed, to, (uint32_t)index));
     }
+    const light_receiver at = set->needs_receivers ? *to : receiver_anywhere(to->position);
     float sum = 0;
-    for (uint32_t i = 0; i < set->n_emitters; i++) sum += importance(set, &set->emitters[i], from);
-    return sum > 0 && sum < INFINITY ? importance(set, &set->emitters[index], from)/sum : 0;
+    for (uint32_t i = 0; i < set->n_emitters; i++) sum += importance(set, &set->emitters[i], &at);
+    return sum > 0 && sum < INFINITY ? importance(set, &set->emitters[index], &at)/sum : 0;
 }
 
 /* Not an even triangle; choice: what is left of the number by which it was chosen. */
@@ -247,14 +257,10 @@ static void set_sample(light_samples s, size_t i, const light_sample *light)
     s.is_delta[i] = light->is_delta;
 }
 
-static vectors vectors_from(vectors v, size_t first)
-{
-    return (vectors){v.x + first, v.y + first, v.z + first};
-}
-
 /* A block of no more than LOOP_LANES points. */
-static void sample_block(const light_set *set, size_t n, vectors from, uint32_t *const u[3], light_samples s)
+static void sample_block(const light_set *set, size_t n, light_receivers to, uint32_t *const u[3], light_samples s)
 {
+    const vectors from = to.position;
     static const light_triangle dark = {.area = 0};
     const render_loops *loops = render_loops_chosen();
     const light_triangle *chosen[LOOP_LANES];
@@ -264,10 +270,12 @@ static void sample_block(const light_set *set, size_t n, vectors from, uint32_t 
     /* Choosing among many takes more digits than u[0] has, and the sky's texel what is left of them. */
     for (size_t i = 0; i < n; i++)
         choice[i] = (double)u[0][i]*0x1p-32 + (double)hash_pair(u[0][i], u[1][i] ^ u[2][i])*0x1p-64;
-    if (set->n_emitters > MOST_WEIGHED) choose_of_many(set, n, from, choice, which, probability);
+    if (set->n_emitters > MOST_WEIGHED) choose_of_many(set, n, to, choice, which, probability);
     else
-        for (size_t i = 0; i < n; i++)
-            which[i] = choose_emitter(set, make3(from.x[i], from.y[i], from.z[i]), &choice[i], &probability[i]);
+        for (size_t i = 0; i < n; i++) {
+            const light_receiver at = set->needs_receivers ? receiver_at(to, i) : receiver_anywhere(position_at(to, i));
+            which[i] = choose_emitter(set, &at, &choice[i], &probability[i]);
+        }
     for (size_t i = 0; i < LOOP_LANES; i++) {
         const bool is_even = i < n && probability[i] > 0 && set->emitters[which[i]].is_even;
         chosen[i] = is_even ? &set->emitters[which[i]].triangle : &dark;
@@ -282,7 +290,7 @@ static void sample_block(const light_set *set, size_t n, vectors from, uint32_t 
     }
 }
 
-void light_set_sample_many(const light_set *set, size_t n, vectors from, uint32_t *const u[3], light_samples s)
+void light_set_sample_many(const light_set *set, size_t n, light_receivers to, uint32_t *const u[3], light_samples s)
 {
     const render_loops *loops = render_loops_chosen();
     for (size_t first = 0; first < n; first += LOOP_LANES) {
@@ -295,29 +303,39 @@ void light_set_sample_many(const light_set *set, size_t n, vectors from, uint32_
                                        .is_infinite = s.is_infinite + first,
                                        .is_delta = s.is_delta + first};
         if (!set->is_plain) {
-            sample_block(set, some, vectors_from(from, first), numbers, samples);
+            sample_block(set, some, receivers_from(to, first), numbers, samples);
             continue;
         }
+        const vectors from = vectors_from(to.position, first);
         const light_triangle *chosen[LOOP_LANES];
         float probability[LOOP_LANES];
-        loops->choose_light(set->n_emitters, set->triangles, some, vectors_from(from, first), numbers[0], chosen,
-                            probability);
-        loops->light(chosen, probability, some, vectors_from(from, first), numbers, samples);
+        loops->choose_light(set->n_emitters, set->triangles, some, receivers_from(to, first), set->needs_receivers,
+                            numbers[0], chosen, probability);
+        loops->light(chosen, probability, some, from, numbers, samples);
     }
 }
 
-light_sample light_set_sample(const light_set *set, real3 from, const uint32_t u[3])
+light_sample light_set_sample(const light_set *set, const light_receiver *to, const uint32_t u[3])
 {
-    float at[3][LOOP_LANES], found[10][LOOP_LANES];
+    float at[13][LOOP_LANES], found[10][LOOP_LANES];
     uint32_t room[3][LOOP_LANES], is_infinite[LOOP_LANES], is_delta[LOOP_LANES];
     uint32_t *const numbers[3] = {room[0], room[1], room[2]};
     for (int i = 0; i < LOOP_LANES; i++) {
-        at[0][i] = from.x;
-        at[1][i] = from.y;
-        at[2][i] = from.z;
+        const real3 given[3] = {to->position, to->normal, to->mirror};
+        for (int k = 0; k < 3; k++) {
+            at[3*k][i] = given[k].x;
+            at[3*k + 1][i] = given[k].y;
+            at[3*k + 2][i] = given[k].z;
+        }
+        at[9][i] = to->around;
+        at[10][i] = to->broad;
+        at[11][i] = to->peak;
+        at[12][i] = to->width;
         for (int k = 0; k < 3; k++) room[k][i] = u[k];
     }
-    light_set_sample_many(set, 1, (vectors){at[0], at[1], at[2]}, numbers,
+    const light_receivers receivers = {
+        {at[0], at[1], at[2]}, {at[3], at[4], at[5]}, {at[6], at[7], at[8]}, at[9], at[10], at[11], at[12]};
+    light_set_sample_many(set, 1, receivers, numbers,
                           (light_samples){.direction = {found[0], found[1], found[2]},
                                           .target = {found[3], found[4], found[5]},
                                           .radiance = {found[6], found[7], found[8]},
@@ -332,14 +350,15 @@ light_sample light_set_sample(const light_set *set, real3 from, const uint32_t u
                           .is_delta = is_delta[0]};
 }
 
-float light_set_pdf_of_hit(const light_set *set, real3 from, const hit *h, const surface *at)
+float light_set_pdf_of_hit(const light_set *set, const light_receiver *to, const hit *h, const surface *at)
 {
+    const real3 from = to->position;
     if (h->instance < set->scene->n_instances) {
         const size_t first = set->first_of_instance[h->instance];
         if (first == NONE) return 0;
         const emitter *e = &set->emitters[first + h->primitive];
         const float pdf = area_pdf(sub3(at->position, from), e->triangle.normal, e->triangle.area);
-        return pdf > 0 ? pdf*choice_probability(set, from, first + h->primitive) : 0;
+        return pdf > 0 ? pdf*choice_probability(set, to, first + h->primitive) : 0;
     }
     const size_t index = set->of_sphere[h->primitive];
     if (index == NONE) return 0;
@@ -347,11 +366,11 @@ float light_set_pdf_of_hit(const light_set *set, real3 from, const hit *h, const
     const float cone = cone_pdf(sp, from);
     const float pdf = cone > 0 ? cone
                                : area_pdf(sub3(at->position, from), at->normal, FOUR_PI*sp->radius*sp->radius);
-    return pdf*choice_probability(set, from, index);
+    return pdf*choice_probability(set, to, index);
 }
 
-float light_set_pdf_of_sky(const light_set *set, real3 from, real3 direction)
+float light_set_pdf_of_sky(const light_set *set, const light_receiver *to, real3 direction)
 {
     if (set->sky_emitter == NONE) return 0;
-    return choice_probability(set, from, set->sky_emitter)*sky_pdf(&set->sky, direction);
+    return choice_probability(set, to, set->sky_emitter)*sky_pdf(&set->sky, direction);
 }

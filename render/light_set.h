@@ -32,7 +32,8 @@ struct light_set {
     light_tree placed;   /* for more than MOST_WEIGHED */
     alias_table distant; /* likewise, over the rest, if there are any */
     float distant_weight;
-    bool is_plain; /* no more than MOST_WEIGHED, and all of them even triangles, which loops can serve: */
+    bool needs_receivers; /* more than MOST_ALIKE */
+    bool is_plain;        /* no more than MOST_WEIGHED, and all of them even triangles, which loops can serve: */
     light_triangle triangles[MOST_WEIGHED];
     size_t *first_of_instance; /* [n_instances] index of the emitter of triangle 0, or NONE */
     size_t *of_sphere;         /* [n_spheres] emitter or NONE */

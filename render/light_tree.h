@@ -13,6 +13,7 @@
 
 #include "facet/facet.h"
 #include "render/geometry.h"
+#include "render/light_receiver.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -55,15 +56,15 @@ typedef struct light_tree {
 facet_status light_tree_create(const placed_light *lights, uint32_t n, light_tree *result);
 void light_tree_destroy(light_tree *tree);
 
-/* About the irradiance at a point [W/m^2], luminance. */
-float light_tree_irradiance(const light_tree *tree, real3 from);
+/* About what is taken up of the light at a point [W/m^2], luminance; the irradiance where all is. */
+float light_tree_weight(const light_tree *tree, const light_receiver *to);
 
 /* Draws a light by *u in [0,1), of which it leaves the rest, again in [0,1).  The probability of that light; 0: none,
  * as where all of a node's children prove dark though the node did not. */
-double light_tree_draw(const light_tree *tree, real3 from, double *u, uint32_t *light);
+double light_tree_draw(const light_tree *tree, const light_receiver *to, double *u, uint32_t *light);
 
 /* The probability with which light_tree_draw draws this one. */
-double light_tree_probability(const light_tree *tree, real3 from, uint32_t light);
+double light_tree_probability(const light_tree *tree, const light_receiver *to, uint32_t light);
 
 #ifdef __cplusplus
 }

@@ -8,6 +8,7 @@
 #include <stdint.h>
 
 #include "render/geometry.h"
+#include "render/light_receiver.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -15,6 +16,9 @@ extern "C" {
 
 /* Up to this many emitters are weighed one by one for each point that is lit; a tree leads to one of more. */
 #define MOST_WEIGHED 32
+
+/* Up to this many are chosen without regard to the surface: the two of a quad look alike from anywhere. */
+#define MOST_ALIKE 2
 
 typedef struct light_triangle {
     real3 origin, edge1, edge2; /* world space */
@@ -25,16 +29,17 @@ typedef struct light_triangle {
     float offset;               /* how far shadow rays stop from the surface [m] */
     float lowest;               /* it shines on points above this height: 0, -INFINITY if it is double-sided */
     float strength;             /* mean radiance, luminance */
+    float radius;               /* of a sphere around the centre [m] */
 } light_triangle;
 
-/* About the irradiance that it brings to a point, whatever the surface there: what it is chosen by.  0 only where it
- * brings none. */
-static inline float light_triangle_importance(light_triangle e, real3 from)
+/* About what is taken up of its light at a point: what it is chosen by.  0 only where that is nothing. */
+static inline float light_triangle_importance(light_triangle e, light_receiver to)
 {
-    const real3 to_light = sub3(e.center, from);
-    const float d2 = kmax(dot3(to_light, to_light), REAL_MIN), height = -dot3(to_light, e.normal), d = ksqrt(d2);
+    const real3 away = sub3(to.position, e.center);
+    const float d2 = kmax(dot3(away, away), REAL_MIN), height = dot3(away, e.normal), d = ksqrt(d2);
     /* The area in the denominator bounds the weight near the light; a tenth more cosine, its range. */
-    return keep_if(height > e.lowest, e.strength*e.area*(0.1f*d + kabs(height))/(d*(d2 + e.area)));
+    const float irradiance = e.strength*e.area*(0.1f*d + kabs(height))/(d*(d2 + e.area));
+    return keep_if(height > e.lowest, irradiance*light_received(to, away, d, e.radius));
 }
 
 /* Density of a direction to a point of an area sampled uniformly: d^2/(|cos| area). */

@@ -48,6 +48,12 @@ static float mean_emission(const scene *s, const mesh *m, uint32_t triangle)
     return 0.01f*full + sum/10;
 }
 
+static float squared_distance(real3 a, real3 b)
+{
+    const real3 d = sub3(a, b);
+    return dot3(d, d);
+}
+
 static facet_status add_instance(light_set *set, size_t index)
 {
     const scene *s = set->scene;
@@ -70,6 +76,8 @@ static facet_status add_instance(light_set *set, size_t index)
         t->edge1 = sub3(p1, p0);
         t->edge2 = sub3(p2, p0);
         t->center = scale3((real)0.333333333333333, add3(add3(p0, p1), p2));
+        t->radius = ksqrt(kmax(squared_distance(t->center, p0),
+                               kmax(squared_distance(t->center, p1), squared_distance(t->center, p2))));
         t->area = 0.5f*length3(cross3(t->edge1, t->edge2));
         t->normal = scale3(sign, normal_of_edges(t->edge1, t->edge2));
         t->lowest = mat->is_double_sided ? -INFINITY : 0;
@@ -168,6 +176,7 @@ static void gather_triangles(light_set *set)
 /* The tables by which one of many emitters is chosen. */
 static facet_status tabulate(light_set *set)
 {
+    set->needs_receivers = set->n_emitters > MOST_ALIKE;
     if (set->n_emitters <= MOST_WEIGHED) {
         gather_triangles(set);
         return FACET_OK;

@@ -10,6 +10,7 @@
 #include <stdbool.h>
 
 #include "render/geometry.h"
+#include "render/light_receiver.h"
 #include "render/rays.h"
 #include "render/scene.h"
 #include "render/sky.h"
@@ -31,6 +32,9 @@ bool light_set_is_empty(const light_set *set);
 
 const sky *light_set_sky(const light_set *set);
 
+/* Whether more than the receivers' positions is looked at. */
+bool light_set_needs_receivers(const light_set *set);
+
 /* What a light sends to a point.  pdf == 0: nothing.  is_delta: no scattered ray can meet this light, and pdf is
  * the probability of choosing it. */
 typedef struct light_sample {
@@ -41,8 +45,8 @@ typedef struct light_sample {
     real3 radiance; /* [W/(m^2 sr)]; for a delta light the irradiance on a plane across the light [W/m^2] */
 } light_sample;
 
-/* Draws a light and a point on it, for the point `from`; u: 32-bit fractions. */
-light_sample light_set_sample(const light_set *set, real3 from, const uint32_t u[3]);
+/* Draws a light and a point on it; u: 32-bit fractions. */
+light_sample light_set_sample(const light_set *set, const light_receiver *to, const uint32_t u[3]);
 
 /* The same for n points, in arrays with room for whole vectors (loops.h). */
 typedef struct light_samples {
@@ -51,13 +55,13 @@ typedef struct light_samples {
     uint32_t *is_infinite, *is_delta;
 } light_samples;
 
-void light_set_sample_many(const light_set *set, size_t n, vectors from, uint32_t *const u[3], light_samples s);
+void light_set_sample_many(const light_set *set, size_t n, light_receivers to, uint32_t *const u[3], light_samples s);
 
-/* The density with which light_set_sample at `from` draws the direction to this hit of an emitting surface. */
-float light_set_pdf_of_hit(const light_set *set, real3 from, const hit *h, const surface *at);
+/* The density with which light_set_sample draws the direction to this hit of an emitting surface. */
+float light_set_pdf_of_hit(const light_set *set, const light_receiver *to, const hit *h, const surface *at);
 
 /* The same for the sky in a direction. */
-float light_set_pdf_of_sky(const light_set *set, real3 from, real3 direction);
+float light_set_pdf_of_sky(const light_set *set, const light_receiver *to, real3 direction);
 
 #ifdef __cplusplus
 }

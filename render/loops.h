@@ -31,15 +31,21 @@ typedef struct render_loops {
                    uint32_t *const u[3]);
     /* Vertices from `first`, the first of a block, on: those in the block's hits; wi: wo in world space. */
     void (*meet)(struct vertex_list *v, size_t first, plain_block *block);
-    /* For each of n points one of no more than MOST_WEIGHED triangles, by 32-bit fractions, and its probability; 0: none. */
-    void (*choose_light)(uint32_t n_triangles, const light_triangle *triangles, size_t n, vectors from,
-                         const uint32_t *u, const light_triangle **chosen, float *probability);
+    /* For each of n points one of no more than MOST_WEIGHED triangles, by 32-bit fractions, and its probability; 0: none.
+     * has_receivers: by more than their positions. */
+    void (*choose_light)(uint32_t n_triangles, const light_triangle *triangles, size_t n, light_receivers to,
+                         bool has_receivers, const uint32_t *u, const light_triangle **chosen, float *probability);
     /* light_tree_draw for n points. */
-    void (*walk_light_tree)(const light_tree *tree, size_t n, vectors from, double *u, uint32_t *which,
+    void (*walk_light_tree)(const light_tree *tree, size_t n, light_receivers to, double *u, uint32_t *which,
                             float *probability);
     /* For each of n points one on its triangle, as light_set_sample (lights.h). */
     void (*light)(const light_triangle *const *chosen, const float *probability, size_t n, vectors from,
                   uint32_t *const u[3], light_samples s);
+    /* wi to where the density tells what is broad about the scattering; then, with that density in pdf, `broad` of the
+     * receivers, and wi to the mirror image; then, with the density there, the rest of the receivers. */
+    void (*look_aside)(struct vertex_list *v);
+    void (*look_at_mirror)(struct vertex_list *v);
+    void (*receive)(struct vertex_list *v);
     /* wi towards the lights; none where a light lies on the other side of the true surface than of the shading frame.
      * is_implicit: none but delta lights. */
     void (*aim)(struct vertex_list *v, bool is_implicit);

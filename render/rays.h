@@ -13,6 +13,11 @@ typedef struct vectors {
     float *x, *y, *z;
 } vectors;
 
+static inline vectors vectors_from(vectors v, size_t first)
+{
+    return (vectors){v.x + first, v.y + first, v.z + first};
+}
+
 /* t_min < t < t_max along an unnormalised direction.  seed: decides about half-transparent surfaces. */
 typedef struct rays {
     vectors origin, direction;

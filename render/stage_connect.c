@@ -2,6 +2,33 @@
  * SPDX-License-Identifier: MIT */
 #include "render/stages.h"
 
+/* The density of scattering at the directions wi. */
+static void find_pdf(vertex_list *v)
+{
+    for (uint32_t first = 0, n; first < v->n; first += n) {
+        n = batch_from(v, first);
+        if (n > 0) {
+            facet_bsdf_pdf_batch(v->bsdf[first], n, dirs_at(&v->wi, first), dirs_at(&v->wo, first), v->pdf + first);
+            continue;
+        }
+        n = 1;
+        const float wi[3] = {v->wi.x[first], v->wi.y[first], v->wi.z[first]},
+                    wo[3] = {v->wo.x[first], v->wo.y[first], v->wo.z[first]};
+        v->pdf[first] = facet_bsdf_pdf(v->bsdf[first], wi, wo);
+    }
+}
+
+/* How the surfaces take light up (light_receiver.h). */
+static void describe_receivers(vertex_list *v)
+{
+    const render_loops *loops = render_loops_chosen();
+    loops->look_aside(v);
+    find_pdf(v);
+    loops->look_at_mirror(v);
+    find_pdf(v);
+    loops->receive(v);
+}
+
 /* A light for every vertex, or none: pdf 0. */
 static void choose_lights(const path_context *c, vertex_list *v, uint32_t group)
 {
@@ -9,7 +36,8 @@ static void choose_lights(const path_context *c, vertex_list *v, uint32_t group)
     uint32_t *const u[3] = {v->u[0], v->u[1], v->u[2]};
     loops->points(&c->sampler, v->n, v->pixel, v->index, group + GROUP_LIGHT, u);
     light_array *to = &v->light;
-    light_set_sample_many(c->lights, v->n, vectors_of(&v->position), u,
+    if (light_set_needs_receivers(c->lights)) describe_receivers(v);
+    light_set_sample_many(c->lights, v->n, receivers_of(&v->position, &v->receiver), u,
                           (light_samples){.direction = vectors_of(&to->direction),
                                           .target = vectors_of(&to->target),
                                           .radiance = vectors_of(&to->radiance),

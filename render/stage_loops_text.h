@@ -25,6 +25,57 @@ static inline float true_side(const vertex_list *v, size_t k, real3 wi, uint32_t
     return real_of(bits_of(dot3(lane3(&v->normal, k), wi)*v->facing[k]) ^ through);
 }
 
+/* Across the plane of wo and the normal, at 60 degrees from the latter: far from the mirror image, whatever wo. */
+static void look_aside(vertex_list *v)
+{
+    for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
+        {
+            const size_t k = first + i;
+            const float x = v->wo.x[k], y = v->wo.y[k], r2 = x*x + y*y;
+            const float sin = 0.8660254f/ksqrt(kmax(r2, REAL_MIN));
+            const int is_upright = r2 < 1e-12f;
+            v->wi.x[k] = is_upright ? 0.8660254f : -y*sin;
+            v->wi.y[k] = is_upright ? 0 : x*sin;
+            v->wi.z[k] = 0.5f;
+        }
+}
+
+static void look_at_mirror(vertex_list *v)
+{
+    for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
+        {
+            const size_t k = first + i;
+            v->receiver.broad[k] = kmin(2*kmax(v->pdf[k], 0), INV_PI);
+            v->wi.x[k] = -v->wo.x[k];
+            v->wi.y[k] = -v->wo.y[k];
+            v->wi.z[k] = v->wo.z[k];
+        }
+}
+
+static void receive(vertex_list *v)
+{
+    for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
+        {
+            const size_t k = first + i;
+            const real3 mirror = lane_to_world(v, k, lane3(&v->wi, k));
+            const float cos = v->wo.z[k], broad = v->receiver.broad[k];
+            const int is_opaque = (v->transmits[k] == 0) & (cos > 0);
+            const float rest = kmax(v->pdf[k] - broad*cos, 0);
+            /* The lobe holds what is not broad: its integral is 4 pi width peak. */
+            const float width = kmax(1 - PI*broad, 0.01f)/(FOUR_PI*kmax(cos, 0.1f)*kmax(rest, 1e-3f));
+            v->receiver.normal.x[k] = keep_if(is_opaque, v->up.x[k]);
+            v->receiver.normal.y[k] = keep_if(is_opaque, v->up.y[k]);
+            v->receiver.normal.z[k] = keep_if(is_opaque, v->up.z[k]);
+            v->receiver.mirror.x[k] = keep_if(is_opaque, mirror.x);
+            v->receiver.mirror.y[k] = keep_if(is_opaque, mirror.y);
+            v->receiver.mirror.z[k] = keep_if(is_opaque, mirror.z);
+            v->receiver.around[k] = is_opaque ? RECEIVED_AROUND : 1;
+            v->receiver.broad[k] = keep_if(is_opaque, broad);
+            v->receiver.peak[k] = keep_if(is_opaque, kmin(rest, 1e7f));
+            v->receiver.width[k] = kmin(kmax(width, 1e-8f), 1);
+        }
+}
+
 static void aim(vertex_list *v, bool is_implicit)
 {
     const uint32_t is_any = !is_implicit;

@@ -63,14 +63,29 @@ static void gather(path_batch *batch, const path_list *list, uint32_t i, real3 r
     if (weight > 0) add_radiance(batch, list->slot[i], mul3(get3(&list->throughput, i), scale3(weight, radiance)));
 }
 
+/* What sent the path's ray, for the lights. */
+static light_receiver receiver_of(const path_context *c, const path_list *list, uint32_t i)
+{
+    if (!light_set_needs_receivers(c->lights)) return receiver_anywhere(get3(&list->previous, i));
+    const receiver_array *r = &list->receiver;
+    return (light_receiver){get3(&list->previous, i),
+                            get3(&r->normal, i),
+                            get3(&r->mirror, i),
+                            r->around[i],
+                            r->broad[i],
+                            r->peak[i],
+                            r->width[i]};
+}
+
 static void gather_sky(path_batch *batch, const path_context *c, const path_list *list, uint32_t i)
 {
     const real3 direction = get3(&list->ray.direction, i);
     const real3 radiance = sky_radiance(light_set_sky(c->lights), direction);
     if (c->keeps_features) feature_of_sky(batch, list, i, radiance);
     if (!(max_of3(radiance) > 0)) return;
+    const light_receiver previous = receiver_of(c, list, i);
     const bool is_lobe = list->origin[i] == FROM_LOBE;
-    const float pdf = is_lobe ? light_set_pdf_of_sky(c->lights, get3(&list->previous, i), direction) : 0;
+    const float pdf = is_lobe ? light_set_pdf_of_sky(c->lights, &previous, direction) : 0;
     gather(batch, list, i, radiance, implicit_weight(c, list, i, pdf));
 }
 
@@ -80,8 +95,9 @@ static void gather_emission(path_batch *batch, const path_context *c, const path
     if (list->origin[i] == FROM_CAMERA) gather(batch, list, i, at->unlit, 1);
     if (!(max_of3(at->emission) > 0)) return;
     const hit h = hit_at(batch, i);
+    const light_receiver previous = receiver_of(c, list, i);
     const bool is_lobe = list->origin[i] == FROM_LOBE;
-    const float pdf = is_lobe ? light_set_pdf_of_hit(c->lights, get3(&list->previous, i), &h, at) : 0;
+    const float pdf = is_lobe ? light_set_pdf_of_hit(c->lights, &previous, &h, at) : 0;
     gather(batch, list, i, at->emission, implicit_weight(c, list, i, pdf));
 }
 

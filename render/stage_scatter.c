@@ -33,6 +33,16 @@ static void sample(const path_context *c, vertex_list *v, uint32_t group)
     }
 }
 
+static void copy_receiver(receiver_array *to, uint32_t i, const receiver_array *from, uint32_t k)
+{
+    copy3(&to->normal, i, &from->normal, k);
+    copy3(&to->mirror, i, &from->mirror, k);
+    to->around[i] = from->around[k];
+    to->broad[i] = from->broad[k];
+    to->peak[i] = from->peak[k];
+    to->width[i] = from->width[k];
+}
+
 /* Extends paths by scattered rays, into the next list.  [cs500, "Extend path"]. */
 void stage_scatter(path_batch *batch, const path_context *c, const path_list *list, uint32_t n_events, uint32_t group,
                    path_list *next)
@@ -42,10 +52,12 @@ void stage_scatter(path_batch *batch, const path_context *c, const path_list *li
     if (c->keeps_features)
         for (uint32_t k = 0; k < v->n; k++) feature_of_scattering(batch, list, k);
     render_loops_chosen()->scatter(v, n_events >= ROULETTE_START);
+    const bool has_receivers = light_set_needs_receivers(c->lights);
     uint32_t n = 0;
     for (uint32_t k = 0; k < v->n; k++) {
         copy3(&next->throughput, n, &v->f, k);
         copy3(&next->previous, n, &v->position, k);
+        if (has_receivers) copy_receiver(&next->receiver, n, &v->receiver, k);
         copy_ray(&next->ray, n, &v->ray, k);
         next->slot[n] = v->slot[k];
         next->pixel[n] = v->pixel[k];

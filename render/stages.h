@@ -39,6 +39,12 @@ typedef struct ray_array {
     uint32_t seed[ROOM];
 } ray_array;
 
+/* Where light is taken up (light_receiver.h), beside the position. */
+typedef struct receiver_array {
+    vector_array normal, mirror;
+    float around[ROOM], broad[ROOM], peak[ROOM], width[ROOM];
+} receiver_array;
+
 /* Paths that go on, and the ray that each follows, of unit direction.  Those that end are left out of the next list. */
 typedef struct path_list {
     LINE_ALIGNED uint32_t slot[ROOM];  /* pixel of the tile */
@@ -47,6 +53,7 @@ typedef struct path_list {
     vector_array throughput;
     float eta_scale[ROOM];   /* radiance lost to refraction and got back on leaving: not a reason to end a path */
     vector_array previous;   /* where the ray was scattered */
+    receiver_array receiver; /* ... if the lights ask for it */
     float pdf_scatter[ROOM]; /* of its direction [1/sr] */
     uint8_t origin[ROOM];    /* path_origin */
     uint32_t n;
@@ -75,6 +82,7 @@ typedef struct vertex_list {
     uint32_t transmits[ROOM]; /* all bits, or none */
     const facet_bsdf *bsdf[ROOM];
     facet_bsdf own[ROOM];
+    receiver_array receiver; /* if the lights ask for it */
     /* Scattering */
     uint32_t u[3][ROOM];
     vector_array wo, wi, number; /* local; number: the sampler's, as floats */
@@ -118,6 +126,12 @@ struct path_batch {
 static inline vectors vectors_of(vector_array *a)
 {
     return (vectors){a->x, a->y, a->z};
+}
+
+static inline light_receivers receivers_of(vector_array *position, receiver_array *a)
+{
+    return (light_receivers){
+        vectors_of(position), vectors_of(&a->normal), vectors_of(&a->mirror), a->around, a->broad, a->peak, a->width};
 }
 
 static inline rays rays_of(ray_array *a)

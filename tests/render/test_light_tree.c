@@ -65,11 +65,25 @@ static real3 random_point(draws *d)
     return point_within(d, draw_log(d, .1, 1e4));
 }
 
+/* ... as it is, or on a surface of any normal with lobes of any width. */
+static light_receiver random_receiver(draws *d)
+{
+    light_receiver to = receiver_anywhere(random_point(d));
+    if (draw_bits(d) & 1) return to;
+    to.normal = direction(d);
+    to.mirror = direction(d);
+    to.around = RECEIVED_AROUND;
+    to.broad = between(d, 0, 0.3);
+    to.width = (float)draw_log(d, 1e-8, 1);
+    to.peak = between(d, 0, 1)/to.width;
+    return to;
+}
+
 /* Rounding: a part in 10^7 for each weight of a sum of eight, on eight levels. */
-static double sum_of_probabilities(const light_tree *tree, uint32_t n, real3 from, double *each)
+static double sum_of_probabilities(const light_tree *tree, uint32_t n, const light_receiver *to, double *each)
 {
     double sum = 0;
-    for (uint32_t i = 0; i < n; i++) sum += each[i] = light_tree_probability(tree, from, i);
+    for (uint32_t i = 0; i < n; i++) sum += each[i] = light_tree_probability(tree, to, i);
     assert_true(sum < 1 + 1e-5);
     return sum;
 }
@@ -85,10 +99,10 @@ static void probabilities_add_up_to_one(void **state)
             for (uint32_t i = 0; i < n; i++) lights[i] = random_light(&d, k);
             light_tree tree = tree_of(lights, n);
             for (int i = 0; i < 4 + 96/SAMPLE_DIVISOR; i++) {
-                const real3 from = i == 0 ? lights[0].low : random_point(&d);
-                const double sum = sum_of_probabilities(&tree, n, from, each);
+                const light_receiver to = i == 0 ? receiver_anywhere(lights[0].low) : random_receiver(&d);
+                const double sum = sum_of_probabilities(&tree, n, &to, each);
                 /* Elsewhere what lacks is the chance of a node that proves dark only when it is opened. */
-                if (k == ALL_AROUND) assert_true(sum > 1 - 1e-5);
+                if (k == ALL_AROUND && to.around == 1) assert_true(sum > 1 - 1e-5);
             }
             light_tree_destroy(&tree);
         }
@@ -105,8 +119,8 @@ static void draws_follow_the_probabilities(void **state)
         for (int i = 0; i < 8; i++) {
             for (uint32_t j = 0; j < N; j++) lights[j] = random_light(&d, k);
             light_tree tree = tree_of(lights, N);
-            const real3 from = random_point(&d);
-            expected[N] = fmax(1 - sum_of_probabilities(&tree, N, from, expected), 1e-5);
+            const light_receiver to = random_receiver(&d);
+            expected[N] = fmax(1 - sum_of_probabilities(&tree, N, &to, expected), 1e-5);
             for (int j = 0; j <= N; j++) {
                 expected[j] *= COUNT;
                 observed[j] = 0;
@@ -114,11 +128,11 @@ static void draws_follow_the_probabilities(void **state)
             for (int j = 0; j < COUNT; j++) {
                 double u = draw(&d) + draw(&d)*0x1p-24;
                 uint32_t light = N;
-                const double probability = light_tree_draw(&tree, from, &u, &light);
+                const double probability = light_tree_draw(&tree, &to, &u, &light);
                 assert_true(u >= 0 && u < 1);
                 observed[probability > 0 ? light : N]++;
                 if (!(probability > 0)) continue;
-                const double told = light_tree_probability(&tree, from, light);
+                const double told = light_tree_probability(&tree, &to, light);
                 assert_true(fabs(told - probability) <= 1e-14*probability); /* the factors in another order */
             }
             const chi_square c = chi_square_test(expected, observed, N + 1);
@@ -137,10 +151,11 @@ static void the_rest_is_uniform(void **state)
     draws d = {3};
     for (uint32_t i = 0; i < N; i++) lights[i] = random_light(&d, ALL_AROUND);
     light_tree tree = tree_of(lights, N);
+    const light_receiver to = receiver_anywhere(make3(.1f, 3, .2f));
     for (int i = 0; i < COUNT; i++) {
         double u = draw(&d) + draw(&d)*0x1p-24;
         uint32_t light;
-        assert_true(light_tree_draw(&tree, make3(.1f, 3, .2f), &u, &light) > 0);
+        assert_true(light_tree_draw(&tree, &to, &u, &light) > 0);
         observed[(int)(u*CELLS)]++;
     }
     for (int i = 0; i < CELLS; i++) expected[i] = (double)COUNT/CELLS;
@@ -164,6 +179,13 @@ static real3 point_of(const placed_light *light, draws *d)
     return min3(add3(light->low, make3(x, y, between(d, 0, 1)*size.z)), light->high);
 }
 
+static bool is_above(const light_receiver *to, real3 at)
+{
+    const double x = (double)at.x - (double)to->position.x, y = (double)at.y - (double)to->position.y,
+                 z = (double)at.z - (double)to->position.z;
+    return to->around == 1 || x*(double)to->normal.x + y*(double)to->normal.y + z*(double)to->normal.z > 0;
+}
+
 static void lights_that_shine_at_a_point_can_be_drawn(void **state)
 {
     (void)state;
@@ -178,15 +200,21 @@ static void lights_that_shine_at_a_point_can_be_drawn(void **state)
                 const uint32_t which = (uint32_t)(draw_bits(&d)%n);
                 const placed_light *light = &lights[which];
                 const real3 at = point_of(light, &d);
-                real3 from = random_point(&d);
+                light_receiver to = random_receiver(&d);
+                real3 from = to.position;
                 if (i%4 == 0 && max_abs3(light->axis) > 0) { /* grazing: barely within the spread */
                     const frame f = frame_of_normal(light->axis);
                     const float cos = light->cos_spread, sin = ksqrt(1 - cos*cos), far = between(&d, .1, 10);
                     from = add3(at, scale3(far, add3(scale3(sin, f.t), scale3(cos*1.0001f + 1e-6f, f.n))));
                 }
-                const double probability = light_tree_probability(&tree, from, which);
+                if (i%3 == 0 && to.around < 1) { /* ... barely above the horizon */
+                    const frame f = frame_of_normal(normalize3(sub3(at, from)));
+                    to.normal = normalize3(madd3(f.t, 1e-6f, f.n));
+                }
+                to.position = from;
+                const double probability = light_tree_probability(&tree, &to, which);
                 const double cos = max_abs3(light->axis) > 0 ? cosine_at(light, at, from) : 1;
-                const bool is_lit = cos > (double)light->cos_spread;
+                const bool is_lit = cos > (double)light->cos_spread && is_above(&to, at);
                 if (is_lit && !(probability > 0))
                     fail_msg("kind %d, %u lights: light %u, cosine %a, from %a %a %a", (int)k, n, which, cos,
                              (double)from.x, (double)from.y, (double)from.z);
@@ -197,6 +225,34 @@ static void lights_that_shine_at_a_point_can_be_drawn(void **state)
         }
     print_message("  %d lit, %d proven dark\n", n_lit, n_spared);
     assert_true(n_lit > 1000/SAMPLE_DIVISOR && n_spared > 1000/SAMPLE_DIVISOR);
+}
+
+/* A ring of equal lights above a surface. */
+static void a_surface_draws_the_light_that_it_mirrors(void **state)
+{
+    (void)state;
+    enum { N = 8 };
+    placed_light lights[N] = {0};
+    for (uint32_t i = 0; i < N; i++) {
+        const real2 azimuth = kcossin_turn((float)i/(float)N);
+        lights[i].low = lights[i].high = make3(azimuth.x, azimuth.y, 1);
+        lights[i].intensity = 1;
+    }
+    light_tree tree = tree_of(lights, N);
+    light_receiver to = receiver_anywhere(splat3(0));
+    for (uint32_t i = 0; i < N; i++) assert_true(fabs(light_tree_probability(&tree, &to, i) - 1.0/N) < 1e-6);
+    to.normal = make3(0, 0, 1);
+    to.mirror = normalize3(lights[3].low);
+    to.around = RECEIVED_AROUND;
+    to.width = 0.01f;
+    to.peak = 1/(FOUR_PI*to.width);
+    assert_true(light_tree_probability(&tree, &to, 3) > 0.95);
+    to.peak = 0;
+    to.broad = INV_PI;
+    to.normal = make3(1, 0, 0); /* the first is overhead, the fifth below the horizon */
+    assert_true(light_tree_probability(&tree, &to, 0) > light_tree_probability(&tree, &to, 1));
+    assert_true(light_tree_probability(&tree, &to, 4) == 0);
+    light_tree_destroy(&tree);
 }
 
 static void the_same_lights_give_the_same_tree(void **state)
@@ -217,9 +273,10 @@ static void the_same_lights_give_the_same_tree(void **state)
 static void expect_all(const placed_light *lights, uint32_t n, real3 from)
 {
     light_tree tree = tree_of(lights, n);
+    const light_receiver to = receiver_anywhere(from);
     double sum = 0;
     for (uint32_t i = 0; i < n; i++) {
-        const double p = light_tree_probability(&tree, from, i);
+        const double p = light_tree_probability(&tree, &to, i);
         assert_true(lights[i].intensity > 0 ? p > 0 : p == 0);
         sum += p;
     }
@@ -247,11 +304,12 @@ static void odd_sets_of_lights_are_served(void **state)
 
     for (uint32_t i = 0; i < N; i++) lights[i].intensity = 0;
     light_tree tree = tree_of(lights, N); /* dark */
+    const light_receiver to = receiver_anywhere(splat3(0));
     double u = .5;
     uint32_t light;
-    assert_true(light_tree_draw(&tree, splat3(0), &u, &light) == 0);
-    assert_true(light_tree_irradiance(&tree, splat3(0)) == 0);
-    assert_true(light_tree_probability(&tree, splat3(0), 7) == 0);
+    assert_true(light_tree_draw(&tree, &to, &u, &light) == 0);
+    assert_true(light_tree_weight(&tree, &to) == 0);
+    assert_true(light_tree_probability(&tree, &to, 7) == 0);
     light_tree_destroy(&tree);
     free(lights);
 }
@@ -263,6 +321,7 @@ int main(void)
         cmocka_unit_test(draws_follow_the_probabilities),
         cmocka_unit_test(the_rest_is_uniform),
         cmocka_unit_test(lights_that_shine_at_a_point_can_be_drawn),
+        cmocka_unit_test(a_surface_draws_the_light_that_it_mirrors),
         cmocka_unit_test(the_same_lights_give_the_same_tree),
         cmocka_unit_test(odd_sets_of_lights_are_served),
     };

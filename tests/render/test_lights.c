@@ -29,10 +29,13 @@ static light_set *lights_of(const scene *s)
     return set;
 }
 
-static light_sample draw_light(const light_set *set, real3 from, draws *d)
+/* receiver_anywhere(splat3(0)) */
+static const light_receiver origin = {.around = 1, .width = 1};
+
+static light_sample draw_light(const light_set *set, const light_receiver *to, draws *d)
 {
     const uint32_t u[3] = {(uint32_t)draw_bits(d), (uint32_t)draw_bits(d), (uint32_t)draw_bits(d)};
-    return light_set_sample(set, from, u);
+    return light_set_sample(set, to, u);
 }
 
 /* ---- Alias tables -------------------------------------------------------------------------------------------- */
@@ -104,23 +107,26 @@ static int cell_of(real3 w)
 }
 
 /* The claimed density in a direction, 0 where nothing emits towards `from`. */
-static double claimed(const scene *s, const tracer *t, const light_set *set, real3 from, real3 w, real3 *radiance)
+static double claimed(const scene *s, const tracer *t, const light_set *set, const light_receiver *to, real3 w,
+                      real3 *radiance)
 {
+    const real3 from = to->position;
     const ray r = {.origin = {from.x, from.y, from.z}, .direction = {w.x, w.y, w.z}, .t_min = 1e-4f, .t_max = INFINITY};
     hit h;
     *radiance = splat3(0);
     if (!tracer_intersect(t, &r, &h)) {
         *radiance = sky_radiance(light_set_sky(set), w);
-        return (double)light_set_pdf_of_sky(set, from, w);
+        return (double)light_set_pdf_of_sky(set, to, w);
     }
     const surface at = surface_of_hit(s, &r, &h, neg3(w));
     *radiance = at.emission;
-    return max_of3(at.emission) > 0 ? (double)light_set_pdf_of_hit(set, from, &h, &at) : 0;
+    return max_of3(at.emission) > 0 ? (double)light_set_pdf_of_hit(set, to, &h, &at) : 0;
 }
 
 /* The scene is destroyed.  lost: the share of draws that may come without a light (from behind, from inside). */
-static void check_densities(const char *what, scene *s, real3 from, double lost)
+static void check_densities_to(const char *what, scene *s, const light_receiver *to, double lost)
 {
+    const real3 from = to->position;
     const uint32_t n = 200000/SAMPLE_DIVISOR;
     light_set *set = lights_of(s);
     tracer *t = NULL;
@@ -135,21 +141,21 @@ static void check_densities(const char *what, scene *s, real3 from, double lost)
             const double z = 1 - 2*(i + .5)/(ROWS*FINE), phi = 2*pi*((j + .5)/(COLUMNS*FINE) - .5),
                          r = sqrt(1 - z*z);
             const real3 w = make3((float)(r*cos(phi)), (float)(r*sin(phi)), (float)z);
-            const double pdf = claimed(s, t, set, from, w, &radiance)*4*pi/(ROWS*FINE)/(COLUMNS*FINE);
+            const double pdf = claimed(s, t, set, to, w, &radiance)*4*pi/(ROWS*FINE)/(COLUMNS*FINE);
             expected[cell_of(w)] += pdf;
             whole += pdf;
         }
     draws d = {42};
     double n_none = 0, n_different = 0;
     for (uint32_t i = 0; i < n; i++) {
-        const light_sample l = draw_light(set, from, &d);
+        const light_sample l = draw_light(set, to, &d);
         if (!(l.pdf > 0)) {
             n_none++;
             continue;
         }
         assert_true(fabsf(length3(l.direction) - 1) < 1e-5f);
         const real3 way = l.is_infinite ? l.direction : normalize3(sub3(l.target, from));
-        const double pdf = claimed(s, t, set, from, way, &radiance);
+        const double pdf = claimed(s, t, set, to, way, &radiance);
         /* A draw whose target something else hides is fine: the shadow ray will say so.  Rounding may show the ray a
          * neighbouring triangle, or move the hit noticeably at grazing incidence: one in five hundred may differ. */
         ray shadow = {.origin = {from.x, from.y, from.z}, .t_min = 1e-4f, .t_max = 1};
@@ -183,6 +189,12 @@ static void check_densities(const char *what, scene *s, real3 from, double lost)
     tracer_destroy(t);
     light_set_destroy(set);
     scene_destroy(s);
+}
+
+static void check_densities(const char *what, scene *s, real3 from, double lost)
+{
+    const light_receiver to = receiver_anywhere(from);
+    check_densities_to(what, s, &to, lost);
 }
 
 static size_t glow(scene *s, float emission, bool is_double_sided)
@@ -242,26 +254,56 @@ static void spheres_are_drawn_by_their_cone(void **state)
     check_densities("sphere, from its own surface", s, make3(.6f, .8f, 0), 0.001);
 }
 
-/* More emitters than are weighed one by one. */
-static void many_emitters_are_drawn_as_claimed(void **state)
+static scene *ball_scene(void)
 {
-    (void)state;
     scene *s = build_scene();
     const size_t ball = build_zone(s, glow(s, 2, false), 1, -1, 8, 12, false);
     build_instance(s, ball, (const float[3][4]){{1, 0, 0, 3}, {0, 1, 0, 0}, {0, 0, 1, 0}});
-    check_densities("ball", s, make3(.2f, 0, .1f), 0.7);
-    s = build_scene();
-    /* All of radiance 1, so that rays that pass an edge by rounding see what the draw says. */
-    for (int i = 0; i < 40; i++) {
-        const float angle = (float)(2*pi*i/40), cos = cosf(angle), sin = sinf(angle);
-        const float x = 3*cos, y = (float)(i%5 - 2), z = 3*sin, size = .1f + .01f*(float)i;
+    return s;
+}
+
+/* All of radiance 1, so that rays that pass an edge by rounding see what the draw says. */
+static scene *mixed_scene(int n)
+{
+    scene *s = build_scene();
+    for (int i = 0; i < n; i++) {
+        const float angle = (float)(2*pi*i/n), cos = cosf(angle), sin = sinf(angle);
+        const float x = 3*cos, y = (float)(i%5 - 2), z = 3*sin, size = .1f + .4f/(float)n*(float)i;
         if (i%4 == 0) build_sphere(s, glow(s, 1, false), x, y, z, .2f);
         else
             build_quad(s, glow(s, 1, i%3 == 0), (const float[3]){x, y, z}, (const float[3]){0, size, .1f},
                        (const float[3]){.3f*sin, 0, -.3f*cos});
     }
     for (int k = 0; k < 3; k++) s->environment.scale[k] = 1;
-    check_densities("spheres, quads and sky", s, make3(.2f, 0, .1f), 0.5);
+    return s;
+}
+
+/* More emitters than are weighed one by one. */
+static void many_emitters_are_drawn_as_claimed(void **state)
+{
+    (void)state;
+    check_densities("ball", ball_scene(), make3(.2f, 0, .1f), 0.7);
+    check_densities("spheres, quads and sky", mixed_scene(40), make3(.2f, 0, .1f), 0.5);
+}
+
+/* ... few and many, by surfaces that prefer some of the directions. */
+static void surfaces_draw_emitters_as_claimed(void **state)
+{
+    (void)state;
+    static const float corner[3] = {-1, 2, 1}, u[3] = {2, 0, 0}, v[3] = {0, 0, -2}, other[3] = {-1, -2, 1};
+    light_receiver glossy = receiver_anywhere(make3(.2f, 0, .1f));
+    glossy.normal = normalize3(make3(1, .5f, .2f));
+    glossy.mirror = normalize3(make3(1, .6f, 0));
+    glossy.around = RECEIVED_AROUND;
+    glossy.broad = 0.1f;
+    glossy.width = 0.05f;
+    glossy.peak = 1;
+    scene *s = build_scene();
+    build_quad(s, glow(s, 1, true), corner, u, v);
+    build_quad(s, glow(s, 1, true), other, u, v);
+    check_densities_to("two quads and a surface", s, &glossy, 0);
+    check_densities_to("a few and a surface", mixed_scene(8), &glossy, 0.5);
+    check_densities_to("many and a surface", mixed_scene(40), &glossy, 0.5);
 }
 
 /* The mean of what draws bring, each over its probability, is the sum over the lights. */
@@ -289,9 +331,10 @@ static void punctual_lights_among_many_bring_their_light(void **state)
         assert_int_equal(scene_add_light(s, &light, NULL), FACET_OK);
     }
     light_set *set = lights_of(s);
+    const light_receiver to = receiver_anywhere(from);
     double sum = 0, squares = 0;
     for (int i = 0; i < COUNT; i++) {
-        const light_sample l = draw_light(set, from, &d);
+        const light_sample l = draw_light(set, &to, &d);
         if (!(l.pdf > 0)) continue;
         assert_true(l.is_delta);
         const double value = (double)l.radiance.x/(double)l.pdf;
@@ -315,7 +358,7 @@ static void far_small_spheres_keep_their_solid_angle(void **state)
     light_set *set = lights_of(s);
     draws d = {1};
     for (int i = 0; i < 1000; i++) {
-        const light_sample l = draw_light(set, splat3(0), &d);
+        const light_sample l = draw_light(set, &origin, &d);
         assert_true(fabs((double)l.pdf*pi*1e-12 - 1) < 1e-5);
         assert_true(l.direction.y > 0.999999f);
         assert_true(fabsf(l.target.y - 1000) < 0.01f);
@@ -369,13 +412,13 @@ static double irradiance_by_both(const light_set *set, int n, draws *d, double *
     double sum = 0, squares = 0;
     for (int i = 0; i < n; i++) {
         double v[3], x = 0;
-        const light_sample l = draw_light(set, splat3(0), d);
+        const light_sample l = draw_light(set, &origin, d);
         if (l.pdf > 0 && l.direction.z > 0)
             x += (double)(luminance(l.radiance)*l.direction.z)/((double)l.pdf + 1/(2*pi));
         draw_direction(d, v);
         const real3 w = make3((float)v[0], (float)v[1], (float)v[2]);
         const double radiance = (double)luminance(sky_radiance(light_set_sky(set), w));
-        x += radiance*v[2]/((double)light_set_pdf_of_sky(set, splat3(0), w) + 1/(2*pi));
+        x += radiance*v[2]/((double)light_set_pdf_of_sky(set, &origin, w) + 1/(2*pi));
         sum += x;
         squares += x*x;
     }
@@ -412,8 +455,8 @@ static void a_compensated_sky_is_drawn_by_what_exceeds_its_mean(void **state)
         double v[3];
         draw_direction(&d, v);
         const real3 w = make3((float)v[0], (float)v[1], (float)v[2]);
-        assert_true(light_set_pdf_of_sky(plain, splat3(0), w) > 0);
-        n_undrawn += light_set_pdf_of_sky(compensated, splat3(0), w) == 0;
+        assert_true(light_set_pdf_of_sky(plain, &origin, w) > 0);
+        n_undrawn += light_set_pdf_of_sky(compensated, &origin, w) == 0;
     }
     assert_true(n_undrawn > 100);
     const double a = irradiance_by_both(compensated, 200000, &d, &error),
@@ -442,7 +485,7 @@ static void no_lit_direction_has_density_zero(void **state)
         const real3 w = make3((float)v[0], (float)v[2]*(i & 1 ? 1.0f : -1.0f), (float)v[1]);
         if (!(max_of3(sky_radiance(light_set_sky(set), w)) > 0)) continue;
         n_lit++;
-        assert_true(light_set_pdf_of_sky(set, splat3(0), w) > 0);
+        assert_true(light_set_pdf_of_sky(set, &origin, w) > 0);
     }
     assert_true(n_lit > 500);
     light_set_destroy(set);
@@ -458,8 +501,8 @@ static void a_black_sky_is_no_light_and_bad_texels_are_black(void **state)
     light_set *set = lights_of(s);
     assert_true(light_set_is_empty(set));
     draws d = {1};
-    assert_true(draw_light(set, splat3(0), &d).pdf == 0);
-    assert_true(light_set_pdf_of_sky(set, splat3(0), make3(0, 1, 0)) == 0);
+    assert_true(draw_light(set, &origin, &d).pdf == 0);
+    assert_true(light_set_pdf_of_sky(set, &origin, make3(0, 1, 0)) == 0);
     light_set_destroy(set);
 
     float *map = s->environment.map.pixels;
@@ -470,7 +513,7 @@ static void a_black_sky_is_no_light_and_bad_texels_are_black(void **state)
     set = lights_of(s);
     assert_int_equal(light_set_sky(set)->n_dropped, 3);
     for (int i = 0; i < 20000; i++) {
-        const light_sample l = draw_light(set, splat3(0), &d);
+        const light_sample l = draw_light(set, &origin, &d);
         assert_true(l.pdf > 0 && l.pdf < 10);
         assert_true(max_of3(l.radiance) <= 1.00001f && l.radiance.x >= 0 && l.radiance.y >= 0 && l.radiance.z >= 0);
     }
@@ -517,6 +560,7 @@ int main(void)
         cmocka_unit_test(a_scaled_and_mirrored_instance_is_drawn_where_it_is),
         cmocka_unit_test(spheres_are_drawn_by_their_cone),
         cmocka_unit_test(many_emitters_are_drawn_as_claimed),
+        cmocka_unit_test(surfaces_draw_emitters_as_claimed),
         cmocka_unit_test(punctual_lights_among_many_bring_their_light),
         cmocka_unit_test(far_small_spheres_keep_their_solid_angle),
         cmocka_unit_test(sky_maps_are_drawn_by_their_radiance),
