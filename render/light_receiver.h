@@ -1,8 +1,8 @@
 /* light_receiver.h: a point that is lit, and how its surface takes light up: what lights are chosen by.
  *
  * The surface is asked for its density of scattering in two directions alone, so that any material will do: towards the
- * mirror image of wo, and far from it.  What the second leaves of the first is a lobe like GGX's around the mirror image.
- * A choice of lights needs no more; no estimate depends on it but by its noise.
+ * mirror image of wo, and far from it.  What the second leaves of the first is a lobe like GGX's around the mirror
+ * image.  A choice of lights needs no more; no estimate depends on it but by its noise.
  * SPDX-License-Identifier: MIT */
 #pragma once
 
@@ -67,7 +67,8 @@ static inline light_receivers receivers_from(light_receivers many, size_t first)
 #define LIGHT_COSINE_ERROR 1e-5f
 
 /* The share that is taken up of light from within a sphere; away: from its centre to the point, d > 0 long.  What
- * counts is the highest of it above the horizon, and a lobe as much wider as it looks wide.  0 only below the horizon. */
+ * counts is its highest point above the horizon, and a lobe that is wider by how wide the sphere looks.  0 only below
+ * the horizon. */
 static inline float light_received(light_receiver at, real3 away, float d, float radius)
 {
     const float inverse = 1/d, reach = radius - dot3(away, at.normal);

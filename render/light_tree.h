@@ -1,10 +1,10 @@
 /* light_tree.h: choosing one of many lights for a point, in time that grows with the logarithm of their number.
  *
- * A tree of eight children a node.  A child is chosen in proportion to an estimate of the irradiance that it can
- * bring to the point: its intensity by a mean cosine over the squared distance.  It is 0 only where a cone of the
- * lights' axes and a sphere around them prove that none comes.  [conty18] Conty Estevez and Kulla,
- * Importance sampling of many lights with adaptive tree splitting, 2018, without the splitting and without the normal
- * of the surface that is lit; eight children weighed at once fill vectors and shorten the way down to a third.
+ * A tree of eight children a node.  A child is chosen in proportion to an estimate of what the point takes up of its
+ * light: its intensity by a mean cosine over the squared distance, by the receiver's share (light_receiver.h).  It is 0
+ * only where a cone of the lights' axes and a sphere around them prove that nothing comes.  [conty18] Conty Estevez and
+ * Kulla, Importance sampling of many lights with adaptive tree splitting, 2018, without the splitting; eight children
+ * weighed at once fill vectors and shorten the way down to a third.
  * SPDX-License-Identifier: MIT */
 #pragma once
 

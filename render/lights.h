@@ -1,7 +1,7 @@
 /* lights.h: everything that emits: choosing one, a point on it, and the densities of both.
  *
- * A light is chosen with probability proportional to an estimate of the light that it brings to the point, by way of
- * a tree (light_tree.h) where there are many lights; the sky counts as one light.
+ * A light is chosen with probability proportional to an estimate of what the point takes up of its light, by way of a
+ * tree (light_tree.h) where there are many lights; the sky counts as one light.
  * Densities are per solid angle at the point that is lit, the choice of the light included, so that they
  * can be compared with the density of a scattering sampler.  [cs500-corrected]: SampleLight, PdfLight.
  * SPDX-License-Identifier: MIT */

@@ -31,8 +31,8 @@ typedef struct render_loops {
                    uint32_t *const u[3]);
     /* Vertices from `first`, the first of a block, on: those in the block's hits; wi: wo in world space. */
     void (*meet)(struct vertex_list *v, size_t first, plain_block *block);
-    /* For each of n points one of no more than MOST_WEIGHED triangles, by 32-bit fractions, and its probability; 0: none.
-     * has_receivers: by more than their positions. */
+    /* For each of n points one of up to MOST_WEIGHED triangles, by 32-bit fractions, and its probability; 0: none.
+     * has_receivers: by more than the positions. */
     void (*choose_light)(uint32_t n_triangles, const light_triangle *triangles, size_t n, light_receivers to,
                          bool has_receivers, const uint32_t *u, const light_triangle **chosen, float *probability);
     /* light_tree_draw for n points. */
