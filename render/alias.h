@@ -27,6 +27,12 @@ typedef struct alias_table {
 facet_status alias_table_create(const double *weights, uint32_t n, alias_table *table);
 void alias_table_destroy(alias_table *table);
 
+/* Asks memory for what the next draw by u needs. */
+static inline void alias_table_expect(const alias_table *table, uint32_t u)
+{
+    __builtin_prefetch(&table->cells[((uint64_t)u*table->n) >> 32]);
+}
+
 /* The index that the 32-bit fraction u draws; *rest is what is left of u, again a 32-bit fraction, with
  * log2(n/probability) fewer significant bits. */
 static inline uint32_t alias_table_draw(const alias_table *table, uint32_t u, uint32_t *rest)

@@ -228,8 +228,8 @@ static float choice_probability(const light_set *set, const light_receiver *to, 
     return sum > 0 && sum < INFINITY ? importance(set, &set->emitters[index], &at)/sum : 0;
 }
 
-/* Not an even triangle; choice: what is left of the number by which it was chosen. */
-static light_sample sample_other(const light_set *set, const emitter *e, real3 from, double choice, float v, float w)
+/* Not an even triangle; texel: of the sky. */
+static light_sample sample_other(const light_set *set, const emitter *e, real3 from, uint32_t texel, float v, float w)
 {
     switch (e->kind) {
     case EMITTER_TRIANGLE: return sample_uneven_triangle(set, e, from, v, w);
@@ -238,7 +238,7 @@ static light_sample sample_other(const light_set *set, const emitter *e, real3 f
     case EMITTER_SKY: break;
     }
     light_sample s = {.is_infinite = true};
-    s.direction = sky_sample(&set->sky, digits_of(choice), v, w, &s.pdf);
+    s.direction = sky_sample(&set->sky, texel, v, w, &s.pdf);
     s.radiance = sky_radiance(&set->sky, s.direction);
     return s;
 }
@@ -255,6 +255,19 @@ static void set_sample(light_samples s, size_t i, const light_sample *light)
     s.pdf[i] = light->pdf;
     s.is_infinite[i] = light->is_infinite;
     s.is_delta[i] = light->is_delta;
+}
+
+/* The sky's texel of those that have chosen the sky, by what is left of the numbers that chose. */
+static void draw_texels(const light_set *set, size_t n, const uint32_t *which, const double *choice, uint32_t *texels)
+{
+    for (size_t i = 0; i < n; i++)
+        if (which[i] == set->sky_emitter) sky_expect_draw(&set->sky, digits_of(choice[i]));
+    for (size_t i = 0; i < n; i++) {
+        texels[i] = 0;
+        if (which[i] != set->sky_emitter) continue;
+        texels[i] = sky_draw_texel(&set->sky, digits_of(choice[i]));
+        sky_expect_sample(&set->sky, texels[i]);
+    }
 }
 
 /* A block of no more than LOOP_LANES points. */
@@ -280,11 +293,13 @@ static void sample_block(const light_set *set, size_t n, light_receivers to, uin
         const bool is_even = i < n && probability[i] > 0 && set->emitters[which[i]].is_even;
         chosen[i] = is_even ? &set->emitters[which[i]].triangle : &dark;
     }
+    uint32_t texels[LOOP_LANES];
+    draw_texels(set, n, which, choice, texels);
     loops->light(chosen, probability, n, from, u, s);
     for (size_t i = 0; i < n; i++) {
         if (chosen[i] != &dark || !(probability[i] > 0)) continue;
-        light_sample light = sample_other(set, &set->emitters[which[i]], make3(from.x[i], from.y[i], from.z[i]),
-                                          choice[i], fraction(u[1][i]), fraction(u[2][i]));
+        light_sample light = sample_other(set, &set->emitters[which[i]], position_at(to, i), texels[i],
+                                          fraction(u[1][i]), fraction(u[2][i]));
         light.pdf *= probability[i];
         set_sample(s, i, &light);
     }
@@ -369,8 +384,8 @@ float light_set_pdf_of_hit(const light_set *set, const light_receiver *to, const
     return pdf*choice_probability(set, to, index);
 }
 
-float light_set_pdf_of_sky(const light_set *set, const light_receiver *to, real3 direction)
+float light_set_pdf_of_sky(const light_set *set, const light_receiver *to, real2 place)
 {
     if (set->sky_emitter == NONE) return 0;
-    return choice_probability(set, to, set->sky_emitter)*sky_pdf(&set->sky, direction);
+    return choice_probability(set, to, set->sky_emitter)*sky_pdf(&set->sky, place);
 }

@@ -60,8 +60,8 @@ void light_set_sample_many(const light_set *set, size_t n, light_receivers to, u
 /* The density with which light_set_sample draws the direction to this hit of an emitting surface. */
 float light_set_pdf_of_hit(const light_set *set, const light_receiver *to, const hit *h, const surface *at);
 
-/* The same for the sky in a direction. */
-float light_set_pdf_of_sky(const light_set *set, const light_receiver *to, real3 direction);
+/* The same for a place of the sky (sky.h). */
+float light_set_pdf_of_sky(const light_set *set, const light_receiver *to, real2 place);
 
 #ifdef __cplusplus
 }

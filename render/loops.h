@@ -29,6 +29,8 @@ typedef struct render_loops {
     /* The group's three numbers for n streams, as 32-bit fractions. */
     void (*points)(const sampler *s, size_t n, const uint32_t *pixel, const uint32_t *index, uint32_t group,
                    uint32_t *const u[3]);
+    /* sky_place of n directions. */
+    void (*find_sky)(size_t n, vectors direction, float *u, float *v);
     /* Vertices from `first`, the first of a block, on: those in the block's hits; wi: wo in world space. */
     void (*meet)(struct vertex_list *v, size_t first, plain_block *block);
     /* For each of n points one of up to MOST_WEIGHED triangles, by 32-bit fractions, and its probability; 0: none.

@@ -13,6 +13,12 @@ static real3 texel_at(const environment *e, size_t x, size_t y)
     return make3(c[0], c[1], c[2]);
 }
 
+/* What the texels of a row have in common; cosines of theta, measured from +y. */
+typedef struct sky_row {
+    float edge;   /* cos at the upper edge */
+    float extent; /* less cos at the lower one, without cancellation */
+} sky_row;
+
 /* A texel as it is used: black where it is not a finite non-negative colour. */
 static real3 clean_texel(const environment *e, size_t x, size_t y)
 {
@@ -21,37 +27,41 @@ static real3 clean_texel(const environment *e, size_t x, size_t y)
     return is_clean ? t : splat3(0);
 }
 
-real3 sky_radiance(const sky *s, real3 d)
+real3 sky_radiance_at(const sky *s, real2 place)
 {
     const environment *e = s->environment;
     const real3 scale = vector_of(e->scale);
     if (!e->map.pixels) return scale;
     const size_t w = e->map.width, h = e->map.height;
-    const float u = katan2(d.z, d.x)*INV_TWO_PI + 0.5f, v = kacos(kmin(kmax(d.y, -1), 1))*INV_PI;
-    const float x = u*(float)w - 0.5f, y = kmin(kmax(v*(float)h - 0.5f, 0), (float)(h - 1));
+    const float x = place.x*(float)w - 0.5f, y = kmin(kmax(place.y*(float)h - 0.5f, 0), (float)(h - 1));
     const float x0 = floorf(x), y0 = floorf(y);
     const float fx = x - x0, fy = y - y0;
-    const size_t column[2] = {(size_t)((int64_t)x0 + (int64_t)w)%w, (size_t)((int64_t)x0 + 1 + (int64_t)w)%w};
+    const size_t left = x0 < 0 ? w - 1 : (size_t)x0 < w ? (size_t)x0 : 0;
+    const size_t column[2] = {left, left + 1 < w ? left + 1 : 0};
     const size_t row[2] = {(size_t)y0, (size_t)y0 + 1 < h ? (size_t)y0 + 1 : h - 1};
     real3 sum = splat3(0);
     for (int corner = 0; corner < 4; corner++) {
         const int i = corner & 1, j = corner >> 1;
-        sum = madd3(sum, (i ? fx : 1 - fx)*(j ? fy : 1 - fy), clean_texel(e, column[i], row[j]));
+        const real3 t = s->n_dropped ? clean_texel(e, column[i], row[j]) : texel_at(e, column[i], row[j]);
+        sum = madd3(sum, (i ? fx : 1 - fx)*(j ? fy : 1 - fy), t);
     }
     return mul3(sum, scale);
 }
 
-/* cos(theta) at the upper edge of a row; theta is measured from +y. */
-static float row_edge(const sky *s, size_t row)
+real3 sky_radiance(const sky *s, real3 direction)
 {
-    return kcos(PI*(float)row/(float)s->environment->map.height);
+    return sky_radiance_at(s, sky_place(direction));
 }
 
-/* cos at the upper edge of a row minus cos at the lower one, without cancellation. */
-static float row_extent(const sky *s, size_t row)
+static facet_status create_rows(sky *s)
 {
-    const float step = PI/(float)s->environment->map.height;
-    return 2*ksin(((float)row + 0.5f)*step)*ksin(0.5f*step);
+    const size_t h = s->environment->map.height;
+    const float step = PI/(float)h;
+    s->rows = malloc((h + 1)*sizeof *s->rows);
+    if (!s->rows) return FACET_NO_MEMORY;
+    for (size_t y = 0; y < h; y++)
+        s->rows[y] = (sky_row){kcos(PI*(float)y/(float)h), 2*ksin(((float)y + 0.5f)*step)*ksin(0.5f*step)};
+    return FACET_OK;
 }
 
 /* The integral of the bilinear interpolant over a texel weighs it and its neighbours by (1, 6, 1)/8 along both
@@ -72,7 +82,7 @@ static double texel_weight(const environment *e, size_t x, size_t y)
 
 static double solid_angle(const sky *s, size_t row)
 {
-    return 0.5*(double)row_extent(s, row)/(double)s->environment->map.width; /* in units of 4 pi */
+    return 0.5*(double)s->rows[row].extent/(double)s->environment->map.width; /* in units of 4 pi */
 }
 
 /* Takes the mean luminance from every weight.  [karlik19] Karlik, Sik, Vevoda, Skrivan and Krivanek, MIS compensation,
@@ -93,7 +103,10 @@ facet_status sky_create(const environment *e, bool is_compensated, sky *result, 
     const size_t w = e->map.width, h = e->map.height;
     if (w*h > UINT32_MAX/2) return facet_error_set(why, FACET_UNSUPPORTED, "environment", "more than 2^31 texels");
     double *weights = calloc(w*h, sizeof *weights);
-    if (!weights) return facet_error_set(why, FACET_NO_MEMORY, "environment", "no memory for its sampling table");
+    if (!weights || create_rows(result)) {
+        free(weights);
+        return facet_error_set(why, FACET_NO_MEMORY, "environment", "no memory for its sampling table");
+    }
     double sum = 0, solid_sum = 0;
     for (size_t y = 0; y < h; y++) {
         const double solid = solid_angle(result, y);
@@ -116,9 +129,17 @@ facet_status sky_create(const environment *e, bool is_compensated, sky *result, 
 void sky_destroy(sky *s)
 {
     alias_table_destroy(&s->texels);
+    free(s->rows);
+    s->rows = NULL;
 }
 
-real3 sky_sample(const sky *s, uint32_t u, float v, float w, float *pdf)
+uint32_t sky_draw_texel(const sky *s, uint32_t u)
+{
+    uint32_t rest;
+    return s->texels.cells ? alias_table_draw(&s->texels, u, &rest) : 0;
+}
+
+real3 sky_sample(const sky *s, uint32_t drawn, float v, float w, float *pdf)
 {
     if (!s->texels.cells) {
         const float z = 1 - 2*v;
@@ -127,24 +148,53 @@ real3 sky_sample(const sky *s, uint32_t u, float v, float w, float *pdf)
         *pdf = INV_FOUR_PI;
         return make3(sin*azimuth.x, z, sin*azimuth.y);
     }
-    uint32_t rest;
-    const uint32_t cell = alias_table_draw(&s->texels, u, &rest);
-    const size_t width = s->environment->map.width;
-    const size_t x = cell%width, y = cell/width;
-    const float extent = row_extent(s, y);
-    const float cos = row_edge(s, y) - extent*v;
+    const uint32_t width = (uint32_t)s->environment->map.width;
+    const uint32_t x = drawn%width, y = drawn/width;
+    const sky_row row = s->rows[y];
+    const float cos = row.edge - row.extent*v;
     const float sin = ksqrt(kmax((1 - cos)*(1 + cos), 0));
+    *pdf = s->texels.cells[drawn].probability*(float)width/(TWO_PI*row.extent);
     const real2 azimuth = kcossin_turn(((float)x + w)/(float)width - 0.5f);
-    *pdf = s->texels.cells[cell].probability*(float)width/(TWO_PI*extent);
     return make3(sin*azimuth.x, cos, sin*azimuth.y);
 }
 
-float sky_pdf(const sky *s, real3 d)
+static size_t texel_of_place(const sky *s, real2 place)
+{
+    const size_t w = s->environment->map.width, h = s->environment->map.height;
+    const size_t x = (size_t)kmin(kmax(place.x*(float)w, 0), (float)(w - 1));
+    const size_t y = (size_t)kmin(kmax(place.y*(float)h, 0), (float)(h - 1));
+    return y*w + x;
+}
+
+float sky_pdf(const sky *s, real2 place)
 {
     if (!s->texels.cells) return INV_FOUR_PI;
-    const size_t w = s->environment->map.width, h = s->environment->map.height;
-    const float u = katan2(d.z, d.x)*INV_TWO_PI + 0.5f, v = kacos(kmin(kmax(d.y, -1), 1))*INV_PI;
-    const size_t x = (size_t)kmin(kmax(u*(float)w, 0), (float)(w - 1));
-    const size_t y = (size_t)kmin(kmax(v*(float)h, 0), (float)(h - 1));
-    return s->texels.cells[y*w + x].probability*(float)w/(TWO_PI*row_extent(s, y));
+    const size_t w = s->environment->map.width, texel = texel_of_place(s, place);
+    return s->texels.cells[texel].probability*(float)w/(TWO_PI*s->rows[texel/w].extent);
+}
+
+void sky_expect_draw(const sky *s, uint32_t u)
+{
+    if (s->texels.cells) alias_table_expect(&s->texels, u);
+}
+
+/* A texel of interpolation lies in the row above or in that below. */
+static void expect_texel(const sky *s, size_t texel)
+{
+    const size_t w = s->environment->map.width, n = w*s->environment->map.height;
+    const float *const pixels = s->environment->map.pixels;
+    __builtin_prefetch(&s->texels.cells[texel]);
+    __builtin_prefetch(pixels + 3*(texel > 0 ? texel - 1 : 0));
+    __builtin_prefetch(pixels + 3*(texel >= w ? texel - w : texel));
+    __builtin_prefetch(pixels + 3*(texel + w < n ? texel + w : texel));
+}
+
+void sky_expect_sample(const sky *s, uint32_t drawn)
+{
+    if (s->texels.cells) expect_texel(s, drawn);
+}
+
+void sky_expect_place(const sky *s, real2 place)
+{
+    if (s->texels.cells) expect_texel(s, texel_of_place(s, place));
 }

@@ -92,6 +92,17 @@ static void aim(vertex_list *v, bool is_implicit)
         }
 }
 
+static void find_sky(size_t n, vectors direction, float *u, float *v)
+{
+    for (size_t first = 0; first < n; first += BLOCK) EACH_LANE(i)
+        {
+            const size_t k = first + i;
+            const real2 place = sky_place(make3(direction.x[k], direction.y[k], direction.z[k]));
+            u[k] = place.x;
+            v[k] = place.y;
+        }
+}
+
 /* The vertex's ray, from just off the surface. */
 static inline void leave(vertex_list *v, size_t k, real3 direction)
 {

@@ -77,16 +77,27 @@ static light_receiver receiver_of(const path_context *c, const path_list *list, 
                             r->width[i]};
 }
 
-static void gather_sky(path_batch *batch, const path_context *c, const path_list *list, uint32_t i)
+static void gather_sky(path_batch *batch, const path_context *c, const path_list *list, uint32_t i, real2 place)
 {
-    const real3 direction = get3(&list->ray.direction, i);
-    const real3 radiance = sky_radiance(light_set_sky(c->lights), direction);
+    const real3 radiance = sky_radiance_at(light_set_sky(c->lights), place);
     if (c->keeps_features) feature_of_sky(batch, list, i, radiance);
     if (!(max_of3(radiance) > 0)) return;
     const light_receiver previous = receiver_of(c, list, i);
     const bool is_lobe = list->origin[i] == FROM_LOBE;
-    const float pdf = is_lobe ? light_set_pdf_of_sky(c->lights, &previous, direction) : 0;
+    const float pdf = is_lobe ? light_set_pdf_of_sky(c->lights, &previous, place) : 0;
     gather(batch, list, i, radiance, implicit_weight(c, list, i, pdf));
+}
+
+static void gather_skies(path_batch *batch, const path_context *c, const path_list *list)
+{
+    sky_list *s = &batch->skies;
+    render_loops_chosen()->find_sky(s->n, vectors_of(&s->direction), s->u, s->v);
+    enum { AHEAD = 8 };
+    for (uint32_t k = 0; k < s->n; k++) {
+        const uint32_t next = k + AHEAD < s->n ? k + AHEAD : k;
+        sky_expect_place(light_set_sky(c->lights), make2(s->u[next], s->v[next]));
+        gather_sky(batch, c, list, s->path[k], make2(s->u[k], s->v[k]));
+    }
 }
 
 static void gather_emission(path_batch *batch, const path_context *c, const path_list *list, uint32_t i,
@@ -102,14 +113,16 @@ static void gather_emission(path_batch *batch, const path_context *c, const path
 }
 
 /* The paths that met something, ordered by material, so that neighbours are shaded by the same code; returns their
- * number.  The others meet the sky. */
+ * number.  The others are listed as those that meet the sky. */
 static uint32_t sort_by_material(path_batch *batch, const path_context *c, const path_list *list)
 {
     uint32_t *const place = batch->n_of_material;
+    batch->skies.n = 0;
     memset(place, 0, (c->scene->n_materials + 1)*sizeof *place);
     for (uint32_t i = 0; i < list->n; i++) {
         if (batch->instance[i] == NO_HIT) {
-            gather_sky(batch, c, list, i);
+            batch->skies.path[batch->skies.n] = i;
+            copy3(&batch->skies.direction, batch->skies.n++, &list->ray.direction, i);
             continue;
         }
         const hit h = hit_at(batch, i);
@@ -198,6 +211,7 @@ void stage_meet(path_batch *batch, const path_context *c, const path_list *list,
     vertex_list *v = &batch->vertices;
     const render_loops *loops = render_loops_chosen();
     const uint32_t n_hits = sort_by_material(batch, c, list);
+    gather_skies(batch, c, list);
     v->n = 0;
     for (uint32_t k = 0; k < n_hits; k++) {
         const uint32_t i = batch->order[k], n = v->n;

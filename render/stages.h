@@ -102,6 +102,14 @@ typedef struct shadow_list {
     uint32_t is_blocked[ROOM];
 } shadow_list;
 
+/* Paths that leave the scene. */
+typedef struct sky_list {
+    uint32_t n;
+    LINE_ALIGNED uint32_t path[ROOM];
+    vector_array direction;
+    float u[ROOM], v[ROOM]; /* sky_place */
+} sky_list;
+
 /* What paths see first (film.h), by slot. */
 typedef struct feature_list {
     vector_array albedo, normal;
@@ -116,6 +124,7 @@ struct path_batch {
     uint32_t instance[ROOM], primitive[ROOM];
     uint32_t chance[3][ROOM];
     uint32_t material[ROOM], order[ROOM]; /* of what the paths met; the paths by it */
+    sky_list skies;
     vertex_list vertices;
     shadow_list shadows;
     plain_block plain; /* vertices whose surfaces are still to be found */

@@ -79,7 +79,7 @@ def main():
             "sampler": {"type": "multijitter", "sample_count": int(spp)}})
         if sky != "-":  # Mitsuba's u begins a quarter of a turn later
             scene["sky"] = {"type": "envmap", "filename": sky,
-                            "to_world": mi.ScalarTransform4f().rotate([0, 1, 0], -90)}
+                            "to_world": mi.ScalarTransform4f().rotate([0, 1, 0], 90)}
         loaded = mi.load_dict(scene)
     picture = mi.render(loaded, spp=int(spp), seed=int(seed))
     np.save(out, np.array(picture))

@@ -116,7 +116,7 @@ static double claimed(const scene *s, const tracer *t, const light_set *set, con
     *radiance = splat3(0);
     if (!tracer_intersect(t, &r, &h)) {
         *radiance = sky_radiance(light_set_sky(set), w);
-        return (double)light_set_pdf_of_sky(set, to, w);
+        return (double)light_set_pdf_of_sky(set, to, sky_place(w));
     }
     const surface at = surface_of_hit(s, &r, &h, neg3(w));
     *radiance = at.emission;
@@ -418,7 +418,7 @@ static double irradiance_by_both(const light_set *set, int n, draws *d, double *
         draw_direction(d, v);
         const real3 w = make3((float)v[0], (float)v[1], (float)v[2]);
         const double radiance = (double)luminance(sky_radiance(light_set_sky(set), w));
-        x += radiance*v[2]/((double)light_set_pdf_of_sky(set, &origin, w) + 1/(2*pi));
+        x += radiance*v[2]/((double)light_set_pdf_of_sky(set, &origin, sky_place(w)) + 1/(2*pi));
         sum += x;
         squares += x*x;
     }
@@ -455,8 +455,8 @@ static void a_compensated_sky_is_drawn_by_what_exceeds_its_mean(void **state)
         double v[3];
         draw_direction(&d, v);
         const real3 w = make3((float)v[0], (float)v[1], (float)v[2]);
-        assert_true(light_set_pdf_of_sky(plain, &origin, w) > 0);
-        n_undrawn += light_set_pdf_of_sky(compensated, &origin, w) == 0;
+        assert_true(light_set_pdf_of_sky(plain, &origin, sky_place(w)) > 0);
+        n_undrawn += light_set_pdf_of_sky(compensated, &origin, sky_place(w)) == 0;
     }
     assert_true(n_undrawn > 100);
     const double a = irradiance_by_both(compensated, 200000, &d, &error),
@@ -485,7 +485,7 @@ static void no_lit_direction_has_density_zero(void **state)
         const real3 w = make3((float)v[0], (float)v[2]*(i & 1 ? 1.0f : -1.0f), (float)v[1]);
         if (!(max_of3(sky_radiance(light_set_sky(set), w)) > 0)) continue;
         n_lit++;
-        assert_true(light_set_pdf_of_sky(set, &origin, w) > 0);
+        assert_true(light_set_pdf_of_sky(set, &origin, sky_place(w)) > 0);
     }
     assert_true(n_lit > 500);
     light_set_destroy(set);
@@ -502,7 +502,7 @@ static void a_black_sky_is_no_light_and_bad_texels_are_black(void **state)
     assert_true(light_set_is_empty(set));
     draws d = {1};
     assert_true(draw_light(set, &origin, &d).pdf == 0);
-    assert_true(light_set_pdf_of_sky(set, &origin, make3(0, 1, 0)) == 0);
+    assert_true(light_set_pdf_of_sky(set, &origin, sky_place(make3(0, 1, 0))) == 0);
     light_set_destroy(set);
 
     float *map = s->environment.map.pixels;
