@@ -63,6 +63,44 @@ static void choose_light(uint32_t n_triangles, const light_triangle *triangles, 
 
 /* ---- One of many --------------------------------------------------------------------------------------------- */
 
+/* What is drawn at the top for each point of a block. */
+typedef struct light_top {
+    float weights[LIGHT_TREE_TOP][BLOCK];
+    double sum[BLOCK], at[BLOCK], end[BLOCK], begin[BLOCK];
+    float weight[BLOCK];
+    uint32_t which[BLOCK];
+} light_top;
+
+/* As light_tree_draw does. */
+static void draw_top(const light_tree *tree, light_receivers to, const double *u, light_top *b)
+{
+    EACH_LANE(i) b->sum[i] = 0;
+    for (uint32_t k = 0; k < tree->n_top; k++) {
+        const light_node *node = &tree->nodes[k/LIGHT_NODE_WIDTH];
+        float *restrict const weights = b->weights[k];
+        EACH_LANE(i) weights[i] = light_child_weight(node, k%LIGHT_NODE_WIDTH, receiver_at(to, i));
+        EACH_LANE(i) b->sum[i] += (double)weights[i];
+    }
+    EACH_LANE(i)
+    {
+        b->at[i] = u[i]*b->sum[i];
+        b->end[i] = b->begin[i] = 0;
+        b->weight[i] = 0;
+        b->which[i] = 0;
+    }
+    for (uint32_t k = 0; k < tree->n_top; k++) {
+        const float *restrict const weights = b->weights[k];
+        EACH_LANE(i)
+        {
+            const int takes = (b->at[i] >= b->end[i]) & (weights[i] > 0);
+            b->which[i] = takes ? k : b->which[i];
+            b->weight[i] = takes ? weights[i] : b->weight[i];
+            b->begin[i] = takes ? b->end[i] : b->begin[i];
+            b->end[i] += (double)weights[i];
+        }
+    }
+}
+
 /* All points of a block go down the tree together, so that the processor has other points to weigh for while it waits
  * for one's node. */
 static void walk_light_tree(const light_tree *tree, size_t n, light_receivers to, double *u, uint32_t *which,
@@ -70,13 +108,21 @@ static void walk_light_tree(const light_tree *tree, size_t n, light_receivers to
 {
     for (size_t first = 0; first < n; first += BLOCK) {
         const size_t some = n - first < BLOCK ? n - first : BLOCK;
-        size_t open[BLOCK], n_open = some;
+        size_t open[BLOCK], n_open = 0;
         uint32_t next[BLOCK];
         double product[BLOCK];
+        light_top top;
+        draw_top(tree, receivers_from(to, first), u + first, &top);
         for (size_t i = 0; i < some; i++) {
-            open[i] = i;
-            next[i] = 0;
-            product[i] = 1;
+            const double weight = (double)top.weight[i], rest = (top.at[i] - top.begin[i])/weight;
+            next[i] = LIGHT_NODE_LEAF;
+            product[i] = weight > 0 ? weight/top.sum[i] : 0;
+            if (!(weight > 0)) continue;
+            u[first + i] = rest < 1 ? rest : 0;
+            next[i] = tree->nodes[top.which[i]/LIGHT_NODE_WIDTH].child[top.which[i]%LIGHT_NODE_WIDTH];
+            if (next[i] & LIGHT_NODE_LEAF) continue;
+            expect_light_node(&tree->nodes[next[i]]);
+            open[n_open++] = i;
         }
         while (n_open > 0) {
             size_t n_kept = 0;

@@ -14,38 +14,41 @@ extern "C" {
 #define LEAST_LIGHT_WEIGHT REAL_MIN
 #define MOST_LIGHT_WEIGHT 1e36f
 
-/* The weights of a node's children for a point, and their sum.  Distances count as half the radius at least: the
- * mean of 1/d^2 over a cube is 5.8/r^2 at its centre, 3.4/r^2 on a face and 1.4/r^2 at a corner.  Children that a wide
- * cone may turn to the point have a tenth of their bound at least, however their mean axis lies. */
+/* The weight of a node's child for a point.  Distances count as half the radius at least: the mean of 1/d^2 over a cube
+ * is 5.8/r^2 at its centre, 3.4/r^2 on a face and 1.4/r^2 at a corner.  Children that a wide cone may turn to the point
+ * have a tenth of their bound at least, however their mean axis lies. */
+KERNEL float light_child_weight(const light_node *node, size_t k, light_receiver at)
+{
+    const real3 from = at.position;
+    const float x = from.x - node->x[k], y = from.y - node->y[k], z = from.z - node->z[k];
+    const float d2 = kmax(x*x + y*y + z*z, REAL_MIN), d = ksqrt(d2), inverse = 1/d;
+    const float radius = node->radius[k], r2 = radius*radius;
+    /* The angle to the axis, ... */
+    const float cos = (x*node->axis_x[k] + y*node->axis_y[k] + z*node->axis_z[k])*inverse;
+    const float cos0 = kmin(kmax(cos, node->back[k]*cos), 1), sin0 = ksqrt(kmax(1 - cos0*cos0, 0));
+    /* ... less that of the cone of axes, ... */
+    const float cos_axes = node->cos_axes[k], sin_axes = node->sin_axes[k];
+    const int is_in_cone = cos0 >= cos_axes;
+    const float cos1 = is_in_cone ? 1 : cos0*cos_axes + sin0*sin_axes;
+    const float sin1 = is_in_cone ? 0 : sin0*cos_axes - cos0*sin_axes;
+    /* ... less that under which the lights are seen. */
+    const float sin_size = kmin(radius*inverse, 1), cos_size = ksqrt(1 - sin_size*sin_size);
+    const int is_in_size = (d2 <= r2) | (cos1 >= cos_size);
+    const float cos2 = is_in_size ? 1 : cos1*cos_size + sin1*sin_size;
+    const float intensity = node->around[k] + node->along[k]*kmax(cos0, 0.1f*cos2);
+    const float taken = light_received(at, make3(x, y, z), d, radius);
+    const float weight = taken*intensity/kmax(d2, 0.25f*r2);
+    const int is_lit = (cos2 >= node->cos_spread[k] - LIGHT_COSINE_ERROR) & (node->along[k] > 0) & (taken > 0);
+    return is_lit ? kmin(kmax(weight, LEAST_LIGHT_WEIGHT), MOST_LIGHT_WEIGHT) : 0;
+}
+
+/* Those of all children, and their sum. */
 static inline float light_node_weigh(const light_node *node, const light_receiver *to, float weights[LIGHT_NODE_WIDTH])
 {
     const light_receiver at = *to;
-    const real3 from = at.position;
-    _Pragma("omp simd") for (int k = 0; k < LIGHT_NODE_WIDTH; k++)
-    {
-        const float x = from.x - node->x[k], y = from.y - node->y[k], z = from.z - node->z[k];
-        const float d2 = kmax(x*x + y*y + z*z, REAL_MIN), d = ksqrt(d2), inverse = 1/d;
-        const float radius = node->radius[k], r2 = radius*radius;
-        /* The angle to the axis, ... */
-        const float cos = (x*node->axis_x[k] + y*node->axis_y[k] + z*node->axis_z[k])*inverse;
-        const float cos0 = kmin(kmax(cos, node->back[k]*cos), 1), sin0 = ksqrt(kmax(1 - cos0*cos0, 0));
-        /* ... less that of the cone of axes, ... */
-        const float cos_axes = node->cos_axes[k], sin_axes = node->sin_axes[k];
-        const int is_in_cone = cos0 >= cos_axes;
-        const float cos1 = is_in_cone ? 1 : cos0*cos_axes + sin0*sin_axes;
-        const float sin1 = is_in_cone ? 0 : sin0*cos_axes - cos0*sin_axes;
-        /* ... less that under which the lights are seen. */
-        const float sin_size = kmin(radius*inverse, 1), cos_size = ksqrt(1 - sin_size*sin_size);
-        const int is_in_size = (d2 <= r2) | (cos1 >= cos_size);
-        const float cos2 = is_in_size ? 1 : cos1*cos_size + sin1*sin_size;
-        const float intensity = node->around[k] + node->along[k]*kmax(cos0, 0.1f*cos2);
-        const float taken = light_received(at, make3(x, y, z), d, radius);
-        const float weight = taken*intensity/kmax(d2, 0.25f*r2);
-        const int is_lit = (cos2 >= node->cos_spread[k] - LIGHT_COSINE_ERROR) & (node->along[k] > 0) & (taken > 0);
-        weights[k] = is_lit ? kmin(kmax(weight, LEAST_LIGHT_WEIGHT), MOST_LIGHT_WEIGHT) : 0;
-    }
+    _Pragma("omp simd") for (size_t k = 0; k < LIGHT_NODE_WIDTH; k++) weights[k] = light_child_weight(node, k, at);
     float sum = 0;
-    for (int k = 0; k < LIGHT_NODE_WIDTH; k++) sum += weights[k];
+    for (size_t k = 0; k < LIGHT_NODE_WIDTH; k++) sum += weights[k];
     return sum;
 }
 

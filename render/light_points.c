@@ -192,7 +192,7 @@ static void choose_of_many(const light_set *set, size_t n, light_receivers to, d
         is_distant[i] = draw_weighted(both, 2, 1, &u[i]);
         shares[i] = both[is_distant[i]];
     }
-    double placed[LOOP_LANES];
+    double placed[LOOP_LANES] = {0};
     memcpy(placed, u, n*sizeof *placed);
     render_loops_chosen()->walk_light_tree(&set->placed, n, to, placed, which, probability);
     for (size_t i = 0; i < n; i++) {

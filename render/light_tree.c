@@ -13,17 +13,40 @@ void light_tree_destroy(light_tree *tree)
     *tree = (light_tree){0};
 }
 
+/* The weights of the children of the top, and their sum. */
+static double weigh_top(const light_tree *tree, const light_receiver *to, float weights[LIGHT_TREE_TOP])
+{
+    double sum = 0;
+    for (uint32_t first = 0; first < tree->n_top; first += WIDTH)
+        light_node_weigh(&tree->nodes[first/WIDTH], to, weights + first);
+    for (uint32_t k = 0; k < tree->n_top; k++) sum += (double)weights[k];
+    return sum;
+}
+
 float light_tree_weight(const light_tree *tree, const light_receiver *to)
 {
-    float weights[WIDTH];
-    return tree->nodes ? light_node_weigh(tree->nodes, to, weights) : 0;
+    float weights[LIGHT_TREE_TOP];
+    return (float)weigh_top(tree, to, weights);
 }
 
 double light_tree_draw(const light_tree *tree, const light_receiver *to, double *u, uint32_t *light)
 {
-    if (!tree->nodes) return 0;
-    double probability = 1;
+    float weights[LIGHT_TREE_TOP];
+    const double sum = weigh_top(tree, to, weights), at = *u*sum;
+    double end = 0, begin = 0, probability = 0;
     uint32_t next = 0;
+    for (uint32_t k = 0; k < tree->n_top; k++) {
+        if (at >= end && weights[k] > 0) {
+            next = tree->nodes[k/WIDTH].child[k%WIDTH];
+            begin = end;
+            probability = (double)weights[k];
+        }
+        end += (double)weights[k];
+    }
+    if (!(probability > 0)) return 0;
+    const double rest = (at - begin)/probability;
+    *u = rest < 1 ? rest : 0;
+    probability /= sum;
     while (probability > 0 && !(next & LIGHT_NODE_LEAF))
         probability *= light_node_draw(&tree->nodes[next], to, u, &next);
     *light = next & ~LIGHT_NODE_LEAF;
@@ -35,12 +58,14 @@ double light_tree_probability(const light_tree *tree, const light_receiver *to, 
     uint32_t place = tree->place[light];
     if (place == LIGHT_NODE_LEAF) return 0;
     double probability = 1;
-    for (;; place = tree->nodes[place/WIDTH].parent) {
+    for (; place >= tree->n_top; place = tree->nodes[place/WIDTH].parent) {
         float weights[WIDTH];
         const float sum = light_node_weigh(&tree->nodes[place/WIDTH], to, weights);
         const float weight = weights[place%WIDTH];
         if (!(weight > 0)) return 0;
         probability *= (double)(weight/sum);
-        if (place < WIDTH) return probability;
     }
+    float weights[LIGHT_TREE_TOP];
+    const double sum = weigh_top(tree, to, weights);
+    return weights[place] > 0 ? probability*((double)weights[place]/sum) : 0;
 }

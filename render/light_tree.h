@@ -28,7 +28,8 @@ typedef struct placed_light {
     float intensity;      /* luminance along the axis, at most [W/sr]; the sum over all lights is finite */
 } placed_light;
 
-enum { LIGHT_NODE_WIDTH = 8 };
+/* Children of a node; and of the top, whose nodes are weighed as if they were one. */
+enum { LIGHT_NODE_WIDTH = 8, LIGHT_TREE_TOP = 128 };
 
 /* Children as arrays; `along` is 0 for those that are not there. */
 typedef struct light_node {
@@ -40,15 +41,16 @@ typedef struct light_node {
     float along[LIGHT_NODE_WIDTH];    /* intensity that goes with the cosine to the axis; > 0 */
     float around[LIGHT_NODE_WIDTH];   /* and the rest, the same everywhere */
     uint32_t child[LIGHT_NODE_WIDTH]; /* a node, or LIGHT_NODE_LEAF | light */
-    uint32_t parent;                  /* LIGHT_NODE_WIDTH*node + which of its children this is; 0 for the root */
+    uint32_t parent;                  /* LIGHT_NODE_WIDTH*node + which of its children this is; 0 at the top */
 } light_node;
 
 #define LIGHT_NODE_LEAF (1u << 31)
 
 /* About 100 bytes a light. */
 typedef struct light_tree {
-    light_node *nodes; /* the root first; NULL: no light shines */
+    light_node *nodes; /* those of the top first; NULL: no light shines */
     uint32_t n_nodes;
+    uint32_t n_top;  /* children of the top, up to LIGHT_TREE_TOP */
     uint32_t *place; /* [n] as light_node.parent, or LIGHT_NODE_LEAF for a light that does not shine */
 } light_tree;
 

@@ -148,17 +148,17 @@ static range make_range(const builder *b, uint32_t begin, uint32_t end)
     return (range){begin, end, cost_of(&g)};
 }
 
-/* Divides a range into at most WIDTH, the most costly first; their number.  What would fit into one node is divided
- * only if there is room for all of its lights here: half as many nodes, a fifth less variance. */
-static int divide_in_many(const builder *b, range whole, int level, range parts[WIDTH])
+/* Divides a range into at most `most_parts`, the most costly first; their number.  What would fit into one node is
+ * divided only if there is room for all of its lights here: half as many nodes, a fifth less variance. */
+static int divide_in_many(const builder *b, range whole, int level, int most_parts, range *parts)
 {
     int n = 1;
     parts[0] = whole;
-    while (n < WIDTH) {
+    while (n < most_parts) {
         int most = -1;
         for (int k = 0; k < n; k++) {
             const uint32_t size = parts[k].end - parts[k].begin;
-            const bool is_divided = size > WIDTH || (size > 1 && size <= (uint32_t)(WIDTH - n + 1));
+            const bool is_divided = size > WIDTH || (size > 1 && size <= (uint32_t)(most_parts - n + 1));
             if (is_divided && (most < 0 || parts[k].cost > parts[most].cost)) most = k;
         }
         if (most < 0) break;
@@ -249,23 +249,47 @@ static uint32_t add_node(builder *b)
     return tree->n_nodes++;
 }
 
+static bool add_children(builder *b, uint32_t index, const range *parts, int n, int level);
+
+/* The node's index, or UINT32_MAX without memory. */
 static uint32_t build(builder *b, range whole, uint32_t parent, int level)
 {
     const uint32_t index = add_node(b);
     if (index == UINT32_MAX) return index;
     b->tree->nodes[index].parent = parent;
     range parts[WIDTH];
-    const int n = divide_in_many(b, whole, level, parts);
+    const int n = divide_in_many(b, whole, level, WIDTH, parts);
+    return add_children(b, index, parts, n, level) ? index : UINT32_MAX;
+}
+
+/* Children of the node `index` and, if they are more than it takes, of those after it; false without memory. */
+static bool add_children(builder *b, uint32_t index, const range *parts, int n, int level)
+{
     for (int k = 0; k < n; k++) {
-        bound(b, parts[k], &b->tree->nodes[index], k);
         const uint32_t place = WIDTH*index + (uint32_t)k, light = b->order[parts[k].begin];
+        bound(b, parts[k], &b->tree->nodes[place/WIDTH], (int)(place%WIDTH));
         const bool is_leaf = parts[k].end - parts[k].begin == 1;
         if (is_leaf) b->tree->place[light] = place;
         const uint32_t child = is_leaf ? LIGHT_NODE_LEAF | light : build(b, parts[k], place, level + 1);
-        if (child == UINT32_MAX) return child;
-        b->tree->nodes[index].child[k] = child;
+        if (child == UINT32_MAX) return false;
+        b->tree->nodes[place/WIDTH].child[place%WIDTH] = child;
     }
-    return index;
+    return true;
+}
+
+/* A hundred lights are weighed one by one: where their axes go anywhere, pairs of them leave three times the variance.
+ * Of more, few groups: so wide a top takes longer than it spares. */
+enum { PARTS_OF_MANY = 32 };
+
+static bool build_top(builder *b, uint32_t n_lights)
+{
+    range parts[LIGHT_TREE_TOP];
+    const int most_parts = n_lights > LIGHT_TREE_TOP ? PARTS_OF_MANY : LIGHT_TREE_TOP;
+    const int n = divide_in_many(b, make_range(b, 0, n_lights), 0, most_parts, parts);
+    for (int k = 0; k < n; k += WIDTH)
+        if (add_node(b) == UINT32_MAX) return false;
+    b->tree->n_top = (uint32_t)n;
+    return add_children(b, 0, parts, n, 0);
 }
 
 facet_status light_tree_create(const placed_light *lights, uint32_t n, light_tree *result)
@@ -278,7 +302,7 @@ facet_status light_tree_create(const placed_light *lights, uint32_t n, light_tre
         tree.place[i] = LIGHT_NODE_LEAF;
         if (lights[i].intensity > 0) b.order[n_shining++] = i;
     }
-    if (is_built && n_shining > 0) is_built = build(&b, make_range(&b, 0, n_shining), 0, 0) != UINT32_MAX;
+    if (is_built && n_shining > 0) is_built = build_top(&b, n_shining);
     free(b.order);
     if (!is_built) {
         light_tree_destroy(&tree);
