@@ -16,18 +16,17 @@
 #include "tests/run_program.h"
 
 /* At most so many blocks cannot be run here: they install, take hours, or need another machine. */
-enum { MARKS = 14 };
+enum { MARKS = 16 };
 
-/* Runs one line of a shell in an empty folder; what it prints on stdout is `shown`. */
-static void check_command(const char *file, const char *line, const char *shown, size_t length)
+/* Runs one line of a shell in the folder; what it prints on stdout is `shown`. */
+static void check_command(const char *folder, const char *file, const char *line, const char *shown, size_t length)
 {
-    char *folder = make_folder(), command[2048];
+    char command[2048];
     snprintf(command, sizeof command, "PATH=\"$(dirname '%s'):$PATH\"; %s", FACET_PROGRAM, line);
     program_run run = run_program(folder, NULL, NULL, (const char *const[]){"/bin/sh", "-c", command, NULL});
     if (run.status != 0 || *run.err || strlen(run.out) != length || memcmp(run.out, shown, length) != 0)
         fail_msg("%s: $ %s\nprints (status %d)\n%s%s", file, line, run.status, run.out, run.err);
     program_run_free(&run);
-    remove_folder(folder);
 }
 
 /* False in a build without Cairo. */
@@ -39,10 +38,12 @@ static int can_draw(void)
     return 1;
 }
 
-/* Each line `$ command`; what follows, up to the next one, is its whole stdout. */
+/* Each line `$ command`; what follows, up to the next one, is its whole stdout.  The commands of a block share a folder,
+ * in which `include` and `examples` are, as in a checkout. */
 static void check_console(const char *file, char *block)
 {
-    char *p = block;
+    char *folder = make_folder(), *p = block;
+    check_command(folder, file, "ln -s '" FACET_SOURCE_DIR "/include' '" FACET_SOURCE_DIR "/examples' .", "", 0);
     do {
         if (strncmp(p, "$ ", 2) != 0) fail_msg("%s: no command: %s", file, p);
         char *output = strchr(p, '\n');
@@ -50,9 +51,10 @@ static void check_console(const char *file, char *block)
         *output++ = 0;
         const char *next = strncmp(output, "$ ", 2) == 0 ? output : strstr(output, "\n$ ");
         const size_t length = !next ? strlen(output) : (size_t)(next - output) + (*next == '\n');
-        if (can_draw() || strncmp(p, "$ facet plot ", 13) != 0) check_command(file, p + 2, output, length);
+        if (can_draw() || strncmp(p, "$ facet plot ", 13) != 0) check_command(folder, file, p + 2, output, length);
         p = output + length;
     } while (*p);
+    remove_folder(folder);
 }
 
 static void check_json(const char *file, char *block)
