@@ -1,5 +1,5 @@
-/* 11_your_renderer.c: libfacet in a path tracer of one's own: a ball of long-tailed copper on a floor, under a sun and a
- * sky.  The ball's and the floor's reflection are libfacet's; everything else is here.  Writes 11_your_renderer.svg.
+/* 11_your_renderer.c: libfacet in a path tracer of one's own: a ball of long-tailed copper on a floor, under a sun and
+ * a sky.  How the two reflect is libfacet's; everything else is here.  Writes 11_your_renderer.svg.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdio.h>

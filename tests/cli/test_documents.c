@@ -38,8 +38,8 @@ static int can_draw(void)
     return 1;
 }
 
-/* Each line `$ command`; what follows, up to the next one, is its whole stdout.  The commands of a block share a folder,
- * in which `include` and `examples` are, as in a checkout. */
+/* Each line `$ command`; what follows, up to the next one, is its whole stdout.  The commands of a block share a
+ * folder, in which `include` and `examples` are, as in a checkout. */
 static void check_console(const char *file, char *block)
 {
     char *folder = make_folder(), *p = block;
