@@ -2,7 +2,8 @@
  *
  * Scripts run in a folder with what their documents speak of: the headers, the examples, a small scene.glb.  In front
  * of the programs that they name stand others, so that a run takes no minutes: `facet render` makes pictures of 8 x 4
- * pixels, mpirun starts two ranks, make looks whether it has the target, pkg-config names the library of this build.
+ * pixels, mpirun starts two ranks, make looks whether it has the target, pkg-config names the library of this build,
+ * and cc is its compiler.
  *
  * SPDX-License-Identifier: MIT */
 #include <setjmp.h>
@@ -78,8 +79,9 @@ static int set_up(void **state)
              "for a; do case $a in *=*) ;; *) grep -q \"^$a:\" '%s/Makefile' || exit 1 ;; esac; done",
              FACET_SOURCE_DIR);
     stand_in("make", text);
-    snprintf(text, sizeof text, "echo -I '%s/include' '%s' -lm", FACET_SOURCE_DIR, FACET_LIBRARY);
+    snprintf(text, sizeof text, "echo -I '%s/include' '%s' -lm %s", FACET_SOURCE_DIR, FACET_LIBRARY, FACET_LINK_FLAGS);
     stand_in("pkg-config", text);
+    stand_in("cc", "exec " FACET_CC " \"$@\"");
     return 0;
 }
 
