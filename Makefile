@@ -84,7 +84,9 @@ test-web: web ## test the explorer in Chromium
 
 site: ## the documents as a static site, in build/site
 	@tools/setup.sh site
-	@tools/make_site.py build/site
+	cmake --preset $(PRESET)
+	$(BUILD) $(PRESET) -j $(JOBS) --target facet_program
+	@tools/make_site.py build/$(PRESET)/facet build/site
 
 test-python: build ## those of the Python package alone, which need PyPI
 	@tools/test_python.sh build/$(PRESET)

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Builds the documentation site from the Markdown documents as they are, and from the public headers.
+"""Builds the documentation site from the Markdown documents as they are, the public headers, and the program's help.
 
-    tools/make_site.py [FOLDER]      default: build/site; any warning is an error
+    tools/make_site.py FACET FOLDER      FACET is the program `facet`; any warning is an error
 
 docs/README.md is the start page: its headings and links are the navigation, so that it lists every document.  Documents
 are laid out in build/site-source, where their links to other files of the tree become links to pages that show these;
@@ -9,6 +9,7 @@ Sphinx with MyST-Parser and Furo does the rest (docs/site).  Needs the group `si
 
 SPDX-License-Identifier: MIT
 """
+import json
 import os
 import posixpath
 import re
@@ -18,11 +19,13 @@ import sys
 from urllib.parse import unquote
 
 import check_links
+import command_pages
 import header_pages
 import tree
 
 START = "docs/README.md"
 PICTURES = (".svg", ".png", ".jpg", ".gif")
+COMMANDS = "commands.rst"           # behind docs/cli.md
 GENERATED = {"include/facet/facet.h": "api/facet.rst", "include/facet/plugin.h": "api/plugin.rst"}
 
 
@@ -80,12 +83,15 @@ def navigation(text):
     for section in re.split(r"^## ", text, flags=re.M)[1:]:
         heading, _, body = section.partition("\n")
         links = re.findall(r"(?<!!)\[([^\]]+)\]\(([^):#]+\.(?:md|rst))\)", body)
+        paths = [path for _, path in links]
+        if "docs/cli.md" in paths:
+            links.insert(paths.index("docs/cli.md") + 1, ("Commands", COMMANDS))
         rows = "".join(f"{' '.join(label.split())} <{os.path.splitext(path)[0]}>\n" for label, path in links)
         entries.append(f"```{{toctree}}\n:hidden:\n:caption: {heading}\n\n{rows}```\n")
     return "\n" + "\n".join(entries)
 
 
-def lay_out(root, folder):
+def lay_out(root, program, folder):
     shutil.rmtree(folder, ignore_errors=True)
     names = documents(root)
     known, pictures = set(names), set()
@@ -102,6 +108,8 @@ def lay_out(root, folder):
         write(staged_name(name, known), text + navigation(text) if name == START else text)
     for header, page in GENERATED.items():
         write(page, header_pages.page(header, [tree.read(root, h) for h in GENERATED], list(GENERATED).index(header)))
+    told = subprocess.run([program, "help", "--json"], capture_output=True, text=True, check=True).stdout
+    write(COMMANDS, command_pages.page(json.loads(told)))
     for picture in pictures:
         os.makedirs(os.path.dirname(os.path.join(folder, picture)), exist_ok=True)
         shutil.copyfile(os.path.join(root, picture), os.path.join(folder, picture))
@@ -111,9 +119,9 @@ def version(root):
     return re.search(r"project\(facet VERSION ([0-9.]+)", tree.read(root, "CMakeLists.txt")).group(1)
 
 
-def build(root, folder):
+def build(root, program, folder):
     source = os.path.join(root, "build", "site-source")
-    lay_out(root, source)
+    lay_out(root, program, source)
     shutil.rmtree(folder, ignore_errors=True)
     done = subprocess.run(
         ["sphinx-build", "-q", "-W", "--keep-going", "-n", "-b", "html", "-c", os.path.join(root, "docs", "site"),
@@ -126,14 +134,14 @@ def build(root, folder):
 
 def main(arguments):
     root = tree.default_root()
-    if any(a.startswith("-") for a in arguments) or len(arguments) > 1:
+    if any(a.startswith("-") for a in arguments) or len(arguments) != 2:
         print(__doc__, file=sys.stderr)
         return 2
     if not shutil.which("sphinx-build"):
         print("make_site.py: no sphinx-build: tools/setup.sh site", file=sys.stderr)
         return 1
-    folder = os.path.abspath(arguments[0] if arguments else os.path.join(root, "build", "site"))
-    status = tree.report(build(root, folder))
+    folder = os.path.abspath(arguments[1])
+    status = tree.report(build(root, os.path.abspath(arguments[0]), folder))
     if not status:
         print(f"the site: {os.path.relpath(folder)}/index.html")
     return status

@@ -21,6 +21,7 @@ import check_names
 import check_spelling
 import check_symbols
 import check_text
+import command_pages
 import format as layout
 import header_pages
 import make_metals
@@ -261,6 +262,14 @@ class Site(CheckTest):
         made = header_pages.page("include/facet/a.h", [header], 0)
         for part in ("facet/a.h\n=========\n\nwhat it is", "Part\n----", ".. c:function:: int facet_a(int n)",
                      "Gives ``n`` of", ":c:type:`facet_b`", ".. c:type:: facet_b", "    int m;"):
+            self.assertIn(part, made)
+
+    def test_commands_become_a_page(self):
+        made = command_pages.page({"exit_status": "Exit status:\n  0    success\n", "commands": [{
+            "name": "eval", "summary": "evaluate", "operands": "SPEC", "description": "It *is*\nfilled.\n  kept   so\n",
+            "examples": "  facet eval ggx\n", "options": [{"name": "spp", "letter": "s", "value": "N", "help": "how `many`"}]}]})
+        for part in ("facet eval\n----------", "    facet eval [OPTION]... SPEC", "It \\*is\\* filled.", "::\n\n      kept   so",
+                     ".. option:: -s N, --spp N\n\n    how \\ ``many``", "    facet eval ggx", "    0    success"):
             self.assertIn(part, made)
 
 

@@ -107,7 +107,7 @@ static void check_script(const char *file, char *block)
         return;
     }
     program_run run = run_script(script);
-    if (run.status != 0) fail_msg("%s: status %d of\n%s\n%s%s", file, run.status, block, run.out, run.err);
+    if (run.status != 0) fail_msg("%s: status %d of\n%s\n%s%s", file, run.status, block, run.err, run.out);
     program_run_free(&run);
 }
 
