@@ -6,7 +6,7 @@
 
 #include "facet/facet.h"
 
-enum { WIDTH = 72, HEIGHT = 48, SAMPLES = 128, DEPTH = 5 };
+enum { WIDTH = 60, HEIGHT = 40, SAMPLES = 128, DEPTH = 5 };
 
 typedef struct vec {
     float x, y, z;
@@ -79,7 +79,7 @@ int main(void)
     }
     FILE *const svg = fopen("11_your_renderer.svg", "w");
     if (!svg) return perror("11_your_renderer.svg"), 1;
-    fprintf(svg, "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"432\" height=\"288\" viewBox=\"0 -.5 72 48\">\n");
+    fprintf(svg, "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"480\" height=\"320\" viewBox=\"0 -.5 60 40\">\n");
     unsigned state = 1;
     for (int i = 0; i < WIDTH*HEIGHT; i++) {
         float L[3] = {0, 0, 0};
@@ -90,7 +90,7 @@ int main(void)
         }
         int rgb[3];
         for (int c = 0; c < 3; c++) rgb[c] = (int)(255*fminf(1, sqrtf(L[c]/SAMPLES)));
-        fprintf(svg, "<path stroke=\"#%02x%02x%02x\" d=\"M%d %dh1\"/>\n", rgb[0], rgb[1], rgb[2], i%WIDTH, i/WIDTH);
+        fprintf(svg, "<path stroke=\"rgb(%d,%d,%d)\" d=\"M%d %dh1\"/>\n", rgb[0], rgb[1], rgb[2], i%WIDTH, i/WIDTH);
     }
     fprintf(svg, "</svg>\n");
     if (fclose(svg)) return perror("11_your_renderer.svg"), 1;
