@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 SECTION = re.compile(r"/\* -{4} (.+?) -{4,} \*/$")
 HIDDEN = re.compile(r"#\s*(if|ifdef|endif|else|include|pragma)\b|extern \"C\"|\}$")
+DOCUMENT = r"docs/[\w/-]+\.md"
 KINDS = {"function": "func", "type": "type", "macro": "macro"}
 
 
@@ -26,7 +27,7 @@ def opening(text):
 
 
 def declaration(text):
-    text = re.sub(r"\bFACET_(API|PLUGIN) ", "", text)
+    text = re.sub(r"^FACET_(API|PLUGIN) ", "", text)
     code = re.sub(r"/\*.*?\*/", "", text, flags=re.S)
     if code.startswith("#define"):
         return Declaration("macro", (re.match(r"#define (\w+)", code).group(1),), text)
@@ -88,10 +89,12 @@ class Writer:
             word = match.group()
             if word.startswith("`"):
                 return f"``{word[1:-1]}``"
+            if re.fullmatch(DOCUMENT, word):
+                return f":doc:`{word} </{word.removesuffix('.md')}>`"
             if word in self.known:
                 return r"\ " + self.reference(word) + r"\ "
             return re.sub(r"([*`|_\\<>])", r"\\\1", word)
-        return re.sub(r"`[^`]+`|\w+|[^\w\s]", token, text)
+        return re.sub(rf"`[^`]+`|{DOCUMENT}|\w+|[^\w\s]", token, text)
 
     def text(self, comment):
         """Paragraphs; items that begin with a dash; lines that are indented are code."""

@@ -257,10 +257,12 @@ class Site(CheckTest):
         self.assertNotIn("<x>", made)
 
     def test_header_becomes_a_page(self):
-        header = ("/* a.h: what it is.\n * SPDX */\n#pragma once\n\n/* ---- Part ---- */\n\n/* Gives `n` of facet_b. */\n"
+        header = ("/* a.h: what it is, docs/b.md.\n * SPDX */\n#pragma once\n\n#define FACET_PLUGIN FACET_API\n\n"
+                  "/* ---- Part ---- */\n\n/* Gives `n` of facet_b. */\n"
                   "FACET_API int facet_a(int n);\n\ntypedef struct facet_b {\n    int n; /* n */\n\n    int m;\n} facet_b;\n")
         made = header_pages.page("include/facet/a.h", [header], 0)
-        for part in ("facet/a.h\n=========\n\nwhat it is", "Part\n----", ".. c:function:: int facet_a(int n)",
+        for part in ("facet/a.h\n=========\n\nwhat it is, :doc:`docs/b.md </docs/b>`.", ".. c:macro:: FACET_PLUGIN",
+                     "Part\n----", ".. c:function:: int facet_a(int n)",
                      "Gives ``n`` of", ":c:type:`facet_b`", ".. c:type:: facet_b", "    int m;"):
             self.assertIn(part, made)
 
