@@ -17,7 +17,7 @@ includedir ?= $(prefix)/include
 datarootdir ?= $(prefix)/share
 mandir ?= $(datarootdir)/man
 
-.PHONY: help setup setup-check build demo install uninstall deb amalgamation test test-c test-python web test-web test-install bench format check \
+.PHONY: help setup setup-check build demo install uninstall deb amalgamation test test-c test-python web test-web site test-install bench format check \
     sanitize tsan fuzz coverage clean
 
 help: ## this list
@@ -81,6 +81,12 @@ web: ## build the explorer, a static page, in build/web
 test-web: web ## test the explorer in Chromium
 	$(BUILD) $(PRESET) -j $(JOBS) --target facet_program
 	@tools/web.sh test build/$(PRESET)
+
+site: ## the documents as a static site, in build/site
+	@tools/setup.sh site
+	cmake --preset $(PRESET)
+	$(BUILD) $(PRESET) -j $(JOBS) --target facet_program
+	@tools/make_site.py build/$(PRESET)/facet build/site
 
 test-python: build ## those of the Python package alone, which need PyPI
 	@tools/test_python.sh build/$(PRESET)

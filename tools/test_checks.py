@@ -18,11 +18,15 @@ import check_headers
 import check_includes
 import check_links
 import check_names
+import check_spelling
 import check_symbols
 import check_text
+import command_pages
 import format as layout
+import header_pages
 import make_metals
 import make_model_pages
+import make_site
 import mutate
 
 SPDX = "/* SPDX-License-Identifier: MIT */\n"
@@ -186,6 +190,89 @@ class Links(CheckTest):
     def test_link_out_of_the_tree(self):
         self.write("docs/a.md", "[m](../../elsewhere.md)\n")
         self.assert_one(check_links.check(self.root), "leaves the tree")
+
+
+@unittest.skipUnless(shutil.which("hunspell") and shutil.which("codespell"), "no hunspell or no codespell")
+class Spelling(CheckTest):
+    def setUp(self):
+        super().setUp()
+        self.write("tools/words.txt", "# of the project\nmicrofacet\n")
+
+    def test_right_words_pass(self):
+        self.write("README.md", "The colour of a Microfacet is what `facet_bdsf` says.\n\n    D(wm) = clr\n")
+        self.assertEqual(check_spelling.check(self.root), [])
+
+    def test_misspelt_word(self):
+        self.write("docs/a.md", "# Words\n\n- it refelcts\n")
+        self.assertIn("docs/a.md:3: refelcts", check_spelling.check(self.root)[0])
+
+    def test_american_word(self):
+        self.write("docs/a.md", "the color\n")
+        self.assert_one(check_spelling.check(self.root), "color")
+
+    def test_comment_of_a_header(self):
+        self.write("include/facet/a.h", "/* Ret" "uns it. */\nint colr;\n")
+        self.assertIn("Ret" "uns", check_spelling.check(self.root)[0])
+
+    def test_slip_in_a_source(self):
+        self.write("core/a.c", "/* it rec" "ieves */\n")
+        self.assert_one(check_spelling.check(self.root), "core/a.c:1: rec" "ieves")
+
+    def test_list_out_of_order(self):
+        self.write("tools/words.txt", "texel\nmicrofacet\n")
+        self.assert_one(check_spelling.check(self.root), "sorted")
+
+
+class Site(CheckTest):
+    def page(self, body):
+        self.write("index.html", f"<html><body><h1 id=\"top\">A</h1>{body}</body></html>\n")
+        return check_links.check_site(self.root)
+
+    def test_good_links_pass(self):
+        self.write("docs/a.html", "<a href=\"../index.html#top\">up</a>\n")
+        self.assertEqual(self.page("<a href=\"docs/a.html\">a</a> <a href=\"https://example.org\">b</a>"), [])
+
+    def test_missing_page(self):
+        self.assert_one(self.page("<a href=\"docs/none.html\">a</a>"), "index.html:1: docs/none.html does not exist")
+
+    def test_missing_anchor(self):
+        self.assert_one(self.page("<a href=\"#bottom\">a</a>"), "no anchor #bottom")
+
+    def test_missing_picture(self):
+        self.assert_one(self.page("<img src=\"none.svg\">"), "none.svg does not exist")
+
+    def test_loaded_from_elsewhere(self):
+        self.assert_one(self.page("<script src=\"https://example.org/a.js\"></script>"), "loaded from elsewhere")
+
+    def test_links_are_those_of_the_laid_out_documents(self):
+        known = {"docs/README.md", "docs/a.md", "README.md"}
+        text = "[a](a.md#b) [r](../README.md) [h](../include/facet/facet.h) [c](../core/x.c) `[no](x.c)` ![p](p.svg)"
+        self.assertEqual(make_site.rewritten(text, "docs/README.md", known), (
+            "[a](docs/a.md#b) [r](README.md) [h](api/facet.rst) [c](tree:core/x.c) `[no](x.c)` ![p](docs/p.svg)",
+            {"docs/p.svg"}))
+
+    def test_navigation_is_that_of_the_start_page(self):
+        made = make_site.navigation("# A\n\n[x](x.md)\n\n## B\n\n- [Two words](docs/a.md): c\n")
+        self.assertIn(":caption: B\n\nTwo words <docs/a>\n", made)
+        self.assertNotIn("<x>", made)
+
+    def test_header_becomes_a_page(self):
+        header = ("/* a.h: what it is, docs/b.md.\n * SPDX */\n#pragma once\n\n#define FACET_PLUGIN FACET_API\n\n"
+                  "/* ---- Part ---- */\n\n/* Gives `n` of facet_b. */\n"
+                  "FACET_API int facet_a(int n);\n\ntypedef struct facet_b {\n    int n; /* n */\n\n    int m;\n} facet_b;\n")
+        made = header_pages.page("include/facet/a.h", [header], 0)
+        for part in ("facet/a.h\n=========\n\nwhat it is, :doc:`docs/b.md </docs/b>`.", ".. c:macro:: FACET_PLUGIN",
+                     "Part\n----", ".. c:function:: int facet_a(int n)",
+                     "Gives ``n`` of", ":c:type:`facet_b`", ".. c:type:: facet_b", "    int m;"):
+            self.assertIn(part, made)
+
+    def test_commands_become_a_page(self):
+        made = command_pages.page({"exit_status": "Exit status:\n  0    success\n", "commands": [{
+            "name": "eval", "summary": "evaluate", "operands": "SPEC", "description": "It *is*\nfilled.\n  kept   so\n",
+            "examples": "  facet eval ggx\n", "options": [{"name": "spp", "letter": "s", "value": "N", "help": "how `many`"}]}]})
+        for part in ("facet eval\n----------", "    facet eval [OPTION]... SPEC", "It \\*is\\* filled.", "::\n\n      kept   so",
+                     ".. option:: -s N, --spp N\n\n    how \\ ``many``", "    facet eval ggx", "    0    success"):
+            self.assertIn(part, made)
 
 
 class Headers(CheckTest):

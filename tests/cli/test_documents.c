@@ -1,4 +1,4 @@
-/* test_documents.c: what README.md and docs/ show is what happens.
+/* test_documents.c: what the documents show is what happens.
  * SPDX-License-Identifier: MIT */
 #include <setjmp.h>
 #include <stdarg.h>
@@ -9,70 +9,24 @@
 #include <string.h>
 /* cmocka needs the headers above */
 #include <cmocka.h>
-#include <glob.h>
 
 #include "io/json.h"
 #include "plot/canvas.h"
+#include "tests/document_blocks.h"
 #include "tests/run_program.h"
 
-static const char *const documents[] = {"/README.md", "/docs/*.md", "/docs/models/*.md"};
+/* At most so many blocks cannot be run here: they install, take hours, or need another machine. */
+enum { MARKS = 16 };
 
-/* All files of these patterns. */
-static glob_t files_of(const char *const *patterns, size_t n)
+/* Runs one line of a shell in the folder; what it prints on stdout is `shown`. */
+static void check_command(const char *folder, const char *file, const char *line, const char *shown, size_t length)
 {
-    glob_t found = {0};
-    for (size_t i = 0; i < n; i++) {
-        char pattern[1024];
-        snprintf(pattern, sizeof pattern, "%s%s", FACET_SOURCE_DIR, patterns[i]);
-        assert_int_equal(glob(pattern, i ? GLOB_APPEND : 0, NULL, &found), 0);
-    }
-    return found;
-}
-
-/* The next block between ```language and ``` lines; a 0 takes the place of the closing line.  *rest is what follows.
- * NULL if there is none. */
-static char *next_block(char **rest, const char *language)
-{
-    char opening[32];
-    snprintf(opening, sizeof opening, "\n```%s\n", language);
-    char *block = strstr(*rest, opening);
-    if (!block) return NULL;
-    block += strlen(opening);
-    char *end = strncmp(block, "```", 3) == 0 ? block : strstr(block, "\n```");
-    assert_non_null(end);
-    end += *end == '\n';
-    *end = 0;
-    *rest = end + 1;
-    return block;
-}
-
-typedef void block_check(const char *file, char *block);
-
-/* Checks all blocks of a language in all documents; gives their number. */
-static size_t each_block(const char *language, block_check *check)
-{
-    glob_t files = files_of(documents, sizeof documents/sizeof *documents);
-    size_t n = 0;
-    for (size_t i = 0; i < files.gl_pathc; i++) {
-        char *text = read_bytes(files.gl_pathv[i], NULL), *rest = text;
-        assert_non_null(text);
-        for (char *block; (block = next_block(&rest, language)) != NULL; n++) check(files.gl_pathv[i], block);
-        free(text);
-    }
-    globfree(&files);
-    return n;
-}
-
-/* Runs one line of a shell in an empty folder; what it prints on stdout is `shown`. */
-static void check_command(const char *file, const char *line, const char *shown, size_t length)
-{
-    char *folder = make_folder(), command[2048];
+    char command[2048];
     snprintf(command, sizeof command, "PATH=\"$(dirname '%s'):$PATH\"; %s", FACET_PROGRAM, line);
     program_run run = run_program(folder, NULL, NULL, (const char *const[]){"/bin/sh", "-c", command, NULL});
     if (run.status != 0 || *run.err || strlen(run.out) != length || memcmp(run.out, shown, length) != 0)
         fail_msg("%s: $ %s\nprints (status %d)\n%s%s", file, line, run.status, run.out, run.err);
     program_run_free(&run);
-    remove_folder(folder);
 }
 
 /* False in a build without Cairo. */
@@ -84,10 +38,12 @@ static int can_draw(void)
     return 1;
 }
 
-/* Each line `$ command`; what follows, up to the next one, is its whole stdout. */
+/* Each line `$ command`; what follows, up to the next one, is its whole stdout.  The commands of a block share a
+ * folder, in which `include` and `examples` are, as in a checkout. */
 static void check_console(const char *file, char *block)
 {
-    char *p = block;
+    char *folder = make_folder(), *p = block;
+    check_command(folder, file, "ln -s '" FACET_SOURCE_DIR "/include' '" FACET_SOURCE_DIR "/examples' .", "", 0);
     do {
         if (strncmp(p, "$ ", 2) != 0) fail_msg("%s: no command: %s", file, p);
         char *output = strchr(p, '\n');
@@ -95,26 +51,10 @@ static void check_console(const char *file, char *block)
         *output++ = 0;
         const char *next = strncmp(output, "$ ", 2) == 0 ? output : strstr(output, "\n$ ");
         const size_t length = !next ? strlen(output) : (size_t)(next - output) + (*next == '\n');
-        if (can_draw() || strncmp(p, "$ facet plot ", 13) != 0) check_command(file, p + 2, output, length);
+        if (can_draw() || strncmp(p, "$ facet plot ", 13) != 0) check_command(folder, file, p + 2, output, length);
         p = output + length;
     } while (*p);
-}
-
-/* Code is that of an example, which is built and run, without its opening comment. */
-static void check_code(const char *file, char *block)
-{
-    static const char *const examples[] = {"/examples/*.c"};
-    glob_t files = files_of(examples, 1);
-    int is_found = 0;
-    for (size_t i = 0; i < files.gl_pathc; i++) {
-        char *example = read_bytes(files.gl_pathv[i], NULL);
-        assert_non_null(example);
-        const char *code = strstr(example, "#include");
-        is_found |= code && strcmp(code, block) == 0;
-        free(example);
-    }
-    globfree(&files);
-    if (!is_found) fail_msg("%s: this is not the code of any example:\n%s", file, block);
+    remove_folder(folder);
 }
 
 static void check_json(const char *file, char *block)
@@ -129,50 +69,63 @@ static void check_json(const char *file, char *block)
 static void commands_print_what_is_shown(void **state)
 {
     (void)state;
-    assert_true(each_block("console", check_console) >= 10);
-}
-
-static void code_is_that_of_an_example(void **state)
-{
-    (void)state;
-    assert_true(each_block("c", check_code) >= 1);
+    assert_true(each_document_block("console", check_console) >= 10);
 }
 
 static void json_is_json(void **state)
 {
     (void)state;
-    assert_true(each_block("json", check_json) >= 2);
+    assert_true(each_document_block("json", check_json) >= 2);
 }
 
-/* A block of another language would be shown unchecked.  python/tests/test_python_documents.py runs those of Python. */
-static void no_block_is_left_out(void **state)
+static size_t n_marks;
+
+/* A block of another language would be shown unchecked.  test_document_code.c runs sh, c, js and glsl,
+ * tests/packaging/check_consumers.py CMake, python/tests/test_python_documents.py Python; text is no code. */
+static void look_at_fence(const char *file, const char *language, const char *mark)
+{
+    static const char *const languages[] = {"console", "json", "sh", "c", "js", "glsl", "cmake", "python", "text"};
+    int is_known = 0;
+    for (size_t i = 0; i < sizeof languages/sizeof *languages; i++) is_known |= strcmp(language, languages[i]) == 0;
+    if (!is_known) fail_msg("%s: no test knows blocks of \"%s\"", file, language);
+    if (mark) {
+        print_message("not run: %s: %s\n", strrchr(file, '/') + 1, mark);
+        n_marks++;
+    }
+}
+
+static void all_blocks_are_checked_but_a_few(void **state)
 {
     (void)state;
-    static const char *const languages[] = {"console", "c", "json", "sh", "text", "python"};
-    glob_t files = files_of(documents, sizeof documents/sizeof *documents);
-    for (size_t i = 0; i < files.gl_pathc; i++) {
-        char *text = read_bytes(files.gl_pathv[i], NULL);
-        assert_non_null(text);
-        size_t n_fences = 0, n_known = 0;
-        for (const char *p = text; (p = strstr(p, "\n```")) != NULL; p += 4) n_fences++;
-        for (size_t k = 0; k < sizeof languages/sizeof *languages; k++) {
-            char *copy = strdup(text), *rest = copy;
-            while (next_block(&rest, languages[k])) n_known++;
-            free(copy);
-        }
-        if (n_fences != 2*n_known) fail_msg("%s: a block in none of the languages", files.gl_pathv[i]);
-        free(text);
-    }
-    globfree(&files);
+    n_marks = 0;
+    each_document_fence(look_at_fence);
+    assert_in_range(n_marks, 1, MARKS);
+}
+
+/* Blocks that are only indented are formulas; commands and code would hide among them. */
+static void look_at_line(const char *file, const char *line)
+{
+    static const char *const code[] = {"facet ", "make ", "cc ",  "mpirun ",  "build/",  "tools/", "$ ",
+                                       "pip ",   "cmake", "sudo", "#include", "import ", "const "};
+    if (strncmp(line, "    ", 4) != 0) return;
+    for (size_t i = 0; i < sizeof code/sizeof *code; i++)
+        if (strncmp(line + 4, code[i], strlen(code[i])) == 0)
+            fail_msg("%s: code outside of a block that names its language: %s", file, line);
+}
+
+static void indented_blocks_are_formulas(void **state)
+{
+    (void)state;
+    each_document_line(look_at_line);
 }
 
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(commands_print_what_is_shown),
-        cmocka_unit_test(code_is_that_of_an_example),
         cmocka_unit_test(json_is_json),
-        cmocka_unit_test(no_block_is_left_out),
+        cmocka_unit_test(all_blocks_are_checked_but_a_few),
+        cmocka_unit_test(indented_blocks_are_formulas),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

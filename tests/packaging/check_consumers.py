@@ -7,6 +7,7 @@ HOW is `installed` (find_package and pkg-config, in C and C++, from a copy insta
 SPDX-License-Identifier: MIT
 """
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -64,6 +65,22 @@ def check_names(prefix, has_program):
     return library
 
 
+def check_document(prefix, folder):
+    """The lines of docs/install.md make a project."""
+    with open(os.path.join(ROOT, "docs", "install.md"), encoding="utf-8") as stream:
+        lines = re.search(r"^```cmake\n(.*?)^```", stream.read(), re.M | re.S).group(1)
+    source = os.path.join(folder, "document")
+    os.mkdir(source)
+    program = os.path.join(CONSUMER, "consumer.c")
+    with open(os.path.join(source, "CMakeLists.txt"), "w", encoding="utf-8") as stream:
+        stream.write("cmake_minimum_required(VERSION 3.16)\nproject(document LANGUAGES C)\n"
+                     f"add_executable(renderer {program})\n{lines}")
+    build = os.path.join(source, "build")
+    run("cmake", "-S", source, "-B", build, f"-DCMAKE_PREFIX_PATH={prefix}")
+    run("cmake", "--build", build)
+    expect(os.path.join(build, "renderer"))
+
+
 def check_installed(build, folder):
     prefix = os.path.join(folder, "prefix")
     run("cmake", "--install", build, "--prefix", prefix)
@@ -75,6 +92,7 @@ def check_installed(build, folder):
     build_with_cmake(os.path.join(folder, "build"), f"-DCMAKE_PREFIX_PATH={prefix}")
     for kind in ("facet", "static"):
         expect(os.path.join(folder, "build", "with_" + kind))
+    check_document(prefix, folder)
     config = [shutil.which("pkg-config") or "pkg-config", f"--define-variable=prefix={prefix}"]
     environment = dict(os.environ, PKG_CONFIG_PATH=os.path.join(library, "pkgconfig"))
     version = run(*config, "--modversion", "facet", env=environment).strip()
