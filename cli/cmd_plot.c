@@ -252,8 +252,8 @@ const command plot_command = {
         "\n"
         "SPEC may also be `merl file=FILE.binary`, a measured BRDF of the MERL database, or\n"
         "`plugin file=FILE.so NAME=VALUE ...`, a model of your own (`facet verify --help`), with what they have: a\n"
-        "measurement has no D and no sampler.  F, heightfield and G1-error are of facet's own models alone.  Plugins run\n"
-        "in a process of their own, which may crash or hang: then the exit status is 3.\n",
+        "measurement has no D and no sampler.  F, heightfield and G1-error are of facet's own models alone.  Plugins\n"
+        "run in a process of their own, which may crash or hang: then the exit status is 3.\n",
     .examples = "  facet plot 'ggx alpha=.2' 'beckmann alpha=.2' --of D --log -o D.svg\n"
                 "  facet plot 'ggx alpha=.3' --of fcos --theta 0,45,80 --polar -o lobes.pdf\n"
                 "  facet plot 'merl file=gold-metallic-paint.binary' 'ggx alpha=.1 metal=Au' --of f --log -o gold.svg\n"
