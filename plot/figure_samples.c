@@ -136,8 +136,11 @@ facet_status draw_convergence(canvas *page, box place, const figure *f, facet_er
 {
     convergence *runs = malloc(f->n_materials*sizeof *runs);
     series *items = malloc(f->n_materials*sizeof *items);
-    facet_status status = runs && items ? figure_need_sampler(f, why)
-                                        : facet_error_set(why, FACET_NO_MEMORY, "", "no memory for the runs");
+    facet_status status = figure_need_sampler(f, why);
+    if (!runs || !items) {
+        status = facet_error_set(why, FACET_NO_MEMORY, "", "no memory for the runs");
+        goto done;
+    }
     if (status) goto done;
     for (size_t k = 0; k < f->n_materials; k++) {
         const size_t n = converge(f, &f->materials[k], &runs[k]);
