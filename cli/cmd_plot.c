@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cli/commands.h"
+#include "cli/plot_materials.h"
 #include "cli/report.h"
 #include "cli/suggest.h"
 #include "plot/figure.h"
@@ -16,7 +17,7 @@ typedef struct settings {
     const char *of, *out, *title, *channel, *quantity, *x, *y, *minus;
     text_list labels;
     number_list thetas, range;
-    option_number phi, times;
+    option_number phi, times, patience;
     size_t size[2];
     uint64_t n_samples, seed;
     bool is_log, is_polar;
@@ -43,13 +44,6 @@ static int read_variable(const char *place, const char *text, figure_variable *v
     const int n = sscanf(text, "%31[^=]=%lf:%lf%n", v->name, &v->low, &v->high, &end);
     if (n == 3 && !text[end] && isfinite(v->low) && isfinite(v->high) && v->low < v->high) return 0;
     return fail(EXIT_USAGE, NULL, place, "`%s` is not NAME=LOW:HIGH with LOW below HIGH, such as alpha=0.1:0.5", text);
-}
-
-static int read_one(const char *text, const char *label, figure_material *m)
-{
-    m->label = label;
-    const int status = read_material(text, "SPEC", &m->material);
-    return status ? status : prepare_bsdf64(text, "SPEC", &m->bsdf);
 }
 
 static int check_settings(const settings *s, size_t n_materials)
@@ -110,9 +104,49 @@ static int draw(const settings *s, const figure_kind *kind, figure *f, const cha
     return fail_with(FROM_OUTPUT, s->out, &why);
 }
 
+/* All that is known before a material is loaded, which plugins are in a process of their own. */
+typedef struct plot_job {
+    const settings *s;
+    const figure_kind *kind;
+    figure f;
+    plot_spec *specs; /* of the materials, and of the one to be subtracted */
+    figure_material *materials;
+    const char *command_line;
+} plot_job;
+
+static int load_and_draw(void *context, plugin_watch *watch)
+{
+    plot_job *job = context;
+    const size_t n = job->f.n_materials;
+    const settings *s = job->s;
+    int status = 0;
+    for (size_t k = 0; k < n + (s->minus != NULL) && !status; k++) {
+        const char *label = k < s->labels.n ? s->labels.items[k] : job->specs[k].text;
+        status = plot_spec_open(&job->specs[k], label, watch, &job->materials[k]);
+    }
+    return status ? status : draw(s, job->kind, &job->f, job->command_line);
+}
+
+static int plot(plot_job *job, const char *const *texts)
+{
+    const size_t n = job->f.n_materials + (job->s->minus != NULL);
+    const char *plugin_path = NULL;
+    int status = 0;
+    for (size_t k = 0; k < n && !status; k++) {
+        status = plot_spec_read(k < job->f.n_materials ? texts[k] : job->s->minus, &job->specs[k]);
+        if (!plugin_path && job->specs[k].kind == SPEC_PLUGIN) plugin_path = job->specs[k].path;
+    }
+    if (!status) {
+        status = plugin_path ? plugin_supervise(plugin_path, job->s->patience.value, load_and_draw, job)
+                             : load_and_draw(job, NULL);
+    }
+    for (size_t k = 0; k < n; k++) plot_spec_free(&job->specs[k]);
+    return status;
+}
+
 static int run(int argc, char **argv)
 {
-    settings s = {.channel = "luminance", .quantity = "G1", .n_samples = 1000};
+    settings s = {.channel = "luminance", .quantity = "G1", .n_samples = 1000, .patience = {false, 10}};
     const char *texts[MOST_MATERIALS];
     int status = options_parse(&plot_command, argc, argv, &s, texts);
     if (status != PARSE_GO) return status;
@@ -139,16 +173,15 @@ static int run(int argc, char **argv)
                 .y = {"theta", 0, 90},
                 .times = s.times.is_given ? s.times.value : 1};
     if ((status = read_variable("--x", s.x, &f.x)) || (status = read_variable("--y", s.y, &f.y))) return status;
-    figure_material minus = {0}, *materials = calloc(n, sizeof *materials);
+    figure_material *materials = calloc(n + 1, sizeof *materials);
+    plot_spec *specs = calloc(n + 1, sizeof *specs);
     char *command_line = quote_command(argc, argv);
-    status = materials && command_line ? 0 : fail_memory();
-    for (size_t k = 0; k < n && !status; k++)
-        status = read_one(texts[k], k < s.labels.n ? s.labels.items[k] : texts[k], &materials[k]);
-    if (s.minus && !status) status = read_one(s.minus, s.minus, &minus);
     f.materials = materials;
-    f.minus = s.minus ? &minus : NULL;
-    if (!status) status = draw(&s, kind, &f, command_line);
+    f.minus = s.minus ? &materials[n] : NULL;
+    plot_job job = {&s, kind, f, specs, materials, command_line};
+    status = materials && specs && command_line ? plot(&job, texts) : fail_memory();
     free(command_line);
+    free(specs);
     free(materials);
     return status;
 }
@@ -190,6 +223,8 @@ static const option options[] = {
      "number of samples, the largest one of convergence (default 1000)", 10, 1e6, NULL},
     {"seed", 0, OPTION_INTEGER, offsetof(settings, seed), "N", "seed of the random numbers (default 0)", 0, 0x1p53,
      NULL},
+    {"patience", 0, OPTION_NUMBER, offsetof(settings, patience), "SECONDS",
+     "how long one call of a plugin may take (default 10)", 0.1, 1e6, NULL},
 };
 
 const command plot_command = {
@@ -213,9 +248,16 @@ const command plot_command = {
         "  samples        directions that the sampler draws\n"
         "  convergence    the error of the sampled albedo against the number of samples\n"
         "  G1-error       how far G1 in single precision is from masking=exact in double, over the variable --x\n"
-        "Curves of several materials share a chart; slice, lobe, heightfield and samples give each its own panel.\n",
+        "Curves of several materials share a chart; slice, lobe, heightfield and samples give each its own panel.\n"
+        "\n"
+        "SPEC may also be `merl file=FILE.binary`, a measured BRDF of the MERL database, or\n"
+        "`plugin file=FILE.so NAME=VALUE ...`, a model of your own (`facet verify --help`), with what they have: a\n"
+        "measurement has no D and no sampler.  F, heightfield and G1-error are of facet's own models alone.  Plugins\n"
+        "run in a process of their own, which may crash or hang: then the exit status is 3.\n",
     .examples = "  facet plot 'ggx alpha=.2' 'beckmann alpha=.2' --of D --log -o D.svg\n"
                 "  facet plot 'ggx alpha=.3' --of fcos --theta 0,45,80 --polar -o lobes.pdf\n"
+                "  facet plot 'merl file=gold-metallic-paint.binary' 'ggx alpha=.1 metal=Au' --of f --log -o gold.svg\n"
+                "  facet plot 'plugin file=my_model.so alpha=.3' 'ggx alpha=.3' --of G1 -o mine.svg\n"
                 "  facet plot 'gtr gamma=4' --of heightfield --x alpha=.1:.5 --y cot=0:5 -o G1.png\n",
     .options = options,
     .n_options = sizeof options/sizeof *options,

@@ -74,6 +74,7 @@ int plugin_open(const char *path, const char *const *texts, size_t n, plugin_wat
     char local[4096];
     if (access(path, R_OK)) return fail(EXIT_INPUT, path, NULL, "%s", strerror(errno));
     snprintf(local, sizeof local, "%s%s", strchr(path, '/') ? "" : "./", path);
+    watch->path = path;
     watch->function = "the library's start";
     void *library = dlopen(local, RTLD_NOW | RTLD_LOCAL);
     if (!library) return fail(EXIT_INPUT, path, NULL, "is no shared library that can be loaded: %s", dlerror());
@@ -87,7 +88,7 @@ int plugin_open(const char *path, const char *const *texts, size_t n, plugin_wat
     if (!model) return fail(EXIT_INPUT, path, NULL, "facet_plugin_describe returned NULL");
     const char *place, *fault = fault_of(model, &place);
     if (fault) return fail(EXIT_INPUT, path, place, "%s", fault);
-    *p = (plugin){.model = model, .watch = watch};
+    *p = (plugin){.path = path, .model = model, .watch = watch};
     for (int i = 0; i < model->parameter_count; i++) p->values[i] = model->parameters[i].value;
     for (size_t i = 0; i < n; i++) {
         const int status = set_parameter(path, p, texts[i]);
@@ -100,6 +101,7 @@ int plugin_open(const char *path, const char *const *texts, size_t n, plugin_wat
 
 static void enter(const plugin *p, const char *function)
 {
+    p->watch->path = p->path;
     p->watch->function = function;
 }
 
@@ -186,6 +188,7 @@ int plugin_supervise(const char *path, double patience, int (*work)(void *contex
 {
     plugin_watch *watch = mmap(NULL, sizeof *watch, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (watch == MAP_FAILED) return fail_memory();
+    watch->path = path;
     fflush(NULL);
     const pid_t child = fork();
     if (child < 0) return fail(EXIT_WORLD, path, NULL, "no process for the plugin: %s", strerror(errno));
@@ -217,9 +220,9 @@ int plugin_supervise(const char *path, double patience, int (*work)(void *contex
     if (WIFEXITED(status)) return WEXITSTATUS(status);
     whereabouts(watch, where, sizeof where);
     if (is_killed)
-        return fail(EXIT_INPUT, path, NULL, "the plugin has not returned for %g s %s; --patience gives it longer",
-                    patience, where);
-    return fail(EXIT_INPUT, path, NULL,
+        return fail(EXIT_INPUT, watch->path, NULL,
+                    "the plugin has not returned for %g s %s; --patience gives it longer", patience, where);
+    return fail(EXIT_INPUT, watch->path, NULL,
                 "the plugin was ended by signal %d (%s) %s; run it alone under a debugger there", WTERMSIG(status),
                 strsignal(WTERMSIG(status)), where);
 }

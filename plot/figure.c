@@ -4,7 +4,6 @@
 
 #include <math.h>
 
-#include "core/error.h"
 #include "plot/frame.h"
 
 static const double DEGREE = 3.14159265358979323846/180;
@@ -109,21 +108,4 @@ bool figure_half_angles(double theta_h, double phi_h, double theta_d, double phi
     figure_around(theta_h, phi_h, theta_d, phi_d, wi);
     figure_around(theta_h, phi_h, -theta_d, phi_d, wo);
     return wi[2] > 0 && wo[2] > 0;
-}
-
-bool figure_has_terms(const figure_material *m)
-{
-    const double n[3] = {0, 0, 1};
-    return facet_bsdf64_D(&m->bsdf, n) > 0;
-}
-
-facet_status figure_need_terms(const figure *f, const char *what, facet_error *why)
-{
-    for (size_t k = 0; k < f->n_materials; k++)
-        if (!figure_has_terms(&f->materials[k]))
-            return facet_error_set(why, FACET_UNSUPPORTED, f->materials[k].label,
-                                   "has no distribution of normals, and therefore no %s; ggx, beckmann, phong and gtr "
-                                   "have one",
-                                   what);
-    return FACET_OK;
 }

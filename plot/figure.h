@@ -5,6 +5,7 @@
 #include <stdint.h>
 
 #include "plot/canvas.h"
+#include "verify/verify.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -14,6 +15,7 @@ typedef struct figure_material {
     const char *label; /* plain text */
     facet_material material;
     facet_bsdf64 bsdf;
+    verify_subject foreign; /* a measurement or a plugin, if it has eval: material and bsdf are then unset */
 } figure_material;
 
 typedef enum figure_channel { CHANNEL_RED, CHANNEL_GREEN, CHANNEL_BLUE, CHANNEL_LUMINANCE } figure_channel;
@@ -96,8 +98,25 @@ void figure_around(double theta, double phi, double away, double turn, double v[
  * the surface. */
 bool figure_half_angles(double theta_h, double phi_h, double theta_d, double phi_d, double wi[3], double wo[3]);
 
+/* Values of a material, as those of verify_subject; what it has none of must not be asked for. */
+void figure_eval(const figure_material *m, const double wi[3], const double wo[3], double f[3]);
+double figure_pdf(const figure_material *m, const double wi[3], const double wo[3]);
+bool figure_sample(const figure_material *m, const double wo[3], const double u[3], double wi[3], double weight[3]);
+double figure_D(const figure_material *m, const double normal[3]);
+double figure_G1(const figure_material *m, const double v[3]);
+double figure_Lambda(const figure_material *m, const double v[3]);
+bool figure_transmits(const figure_material *m);
+
+/* Shares of the light in the figure's channel, for a view from above. */
+void figure_albedo(const figure *f, const figure_material *m, const double wo[3], double *reflected,
+                   double *transmitted);
+
+/* Errors that name the first material without D, G1 or Lambda (`what`); without a sampler; that is foreign, where only
+ * facet's own have `what`. */
 bool figure_has_terms(const figure_material *m);
 facet_status figure_need_terms(const figure *f, const char *what, facet_error *why);
+facet_status figure_need_sampler(const figure *f, facet_error *why);
+facet_status figure_need_own(const figure *f, const char *what, facet_error *why);
 
 #ifdef __cplusplus
 }

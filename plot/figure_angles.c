@@ -18,7 +18,7 @@ static double value_fcos(const figure *f, const figure_material *m, double theta
 {
     double wi[3], wo[3], value[3];
     directions(f, theta, x, wi, wo);
-    facet_bsdf64_eval(&m->bsdf, wi, wo, value);
+    figure_eval(m, wi, wo, value);
     return figure_channel_of(f, value);
 }
 
@@ -30,34 +30,34 @@ static double value_f(const figure *f, const figure_material *m, double theta, d
 
 static double albedo(const figure *f, const figure_material *m, double theta)
 {
-    double wo[3], reflected[3], transmitted[3];
+    double wo[3], reflected, transmitted;
     figure_direction(-theta, f->phi, wo);
-    facet_bsdf64_albedo(&m->bsdf, wo, reflected, transmitted, NULL);
-    return figure_channel_of(f, reflected) + figure_channel_of(f, transmitted);
+    figure_albedo(f, m, wo, &reflected, &transmitted);
+    return reflected + transmitted;
 }
 
 static double value_pdf(const figure *f, const figure_material *m, double theta, double x)
 {
     double wi[3], wo[3];
     directions(f, theta, x, wi, wo);
-    return facet_bsdf64_pdf(&m->bsdf, wi, wo);
+    return figure_pdf(m, wi, wo);
 }
 
 static double value_albedo(const figure *f, const figure_material *m, double theta, double x)
 {
     (void)theta;
-    double wo[3], reflected[3], transmitted[3];
+    double wo[3], reflected, transmitted;
     if (x >= 90) return NAN;
     figure_direction(x, f->phi, wo);
-    facet_bsdf64_albedo(&m->bsdf, wo, reflected, transmitted, NULL);
-    return figure_channel_of(f, reflected);
+    figure_albedo(f, m, wo, &reflected, &transmitted);
+    return reflected;
 }
 
 static double value_by_half(const figure *f, const figure_material *m, double theta_h, double theta_d)
 {
     double wi[3], wo[3], value[3];
     if (!figure_half_angles(theta_h, f->phi, theta_d, 90, wi, wo)) return NAN;
-    facet_bsdf64_eval(&m->bsdf, wi, wo, value);
+    figure_eval(m, wi, wo, value);
     return figure_channel_of(f, value)/wi[2];
 }
 
@@ -77,9 +77,9 @@ static double value_theta_d(const figure *f, const figure_material *m, double th
 static facet_status draw_plane(canvas *page, box place, const figure *f, curve_kind kind, facet_error *why)
 {
     char title[128] = "In the plane of incidence, viewer at −θₒ";
-    int lobes = 0;
-    for (size_t k = 0; k < f->n_materials; k++) lobes |= facet_bsdf64_lobes(&f->materials[k].bsdf);
-    kind.high = lobes & FACET_TRANSMISSION ? 180 : 90;
+    bool has_lower_half = false;
+    for (size_t k = 0; k < f->n_materials; k++) has_lower_half |= figure_transmits(&f->materials[k]);
+    kind.high = has_lower_half ? 180 : 90;
     kind.low = -kind.high;
     kind.view = "θₒ = ";
     kind.x_name = "θ_i, angle between light and surface normal [degrees]";
@@ -108,7 +108,8 @@ facet_status draw_pdf(canvas *page, box place, const figure *f, facet_error *why
                              .suffix = ": f cos θᵢ / albedo",
                              .other_suffix = ": pdf",
                              .y_name = "density of directions [1/sr]"};
-    return draw_plane(page, place, f, kind, why);
+    const facet_status status = figure_need_sampler(f, why);
+    return status ? status : draw_plane(page, place, f, kind, why);
 }
 
 facet_status draw_albedo(canvas *page, box place, const figure *f, facet_error *why)

@@ -51,8 +51,12 @@ facet_status draw_G1_error(canvas *page, box place, const figure *f, facet_error
 {
     errors *all = malloc(f->n_materials*sizeof *all);
     series *items = malloc(2*f->n_materials*sizeof *items);
-    facet_status status = all && items ? figure_need_terms(f, "G1", why)
-                                       : facet_error_set(why, FACET_NO_MEMORY, "", "no memory for the errors");
+    facet_status status = figure_need_own(f, "an exact masking to compare with", why);
+    if (!all || !items) {
+        status = facet_error_set(why, FACET_NO_MEMORY, "", "no memory for the errors");
+        goto done;
+    }
+    if (!status) status = figure_need_terms(f, "G1", why);
     for (size_t k = 0; k < f->n_materials && !status; k++) {
         errors *e = &all[k];
         for (int i = 0; i < N_VALUES && !status; i++) {
@@ -72,6 +76,7 @@ facet_status draw_G1_error(canvas *page, box place, const figure *f, facet_error
                      .items = items,
                      .n_items = 2*f->n_materials};
     if (!status) chart_draw(page, place, &c);
+done:
     free(items);
     free(all);
     return status;

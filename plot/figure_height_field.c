@@ -167,9 +167,11 @@ static int point_count(const figure *f, const figure_variable *v)
 static facet_status measure(const figure *f, field *d, facet_error *why)
 {
     const figure_material *const both[] = {f->materials, f->minus};
-    facet_status status = FACET_OK;
     *d = (field){.n_x = point_count(f, &f->x), .n_y = point_count(f, &f->y)};
-    if (strcmp(f->quantity, "albedo") != 0) status = figure_need_terms(f, f->quantity, why);
+    static const char what[] = "parameters that can be varied";
+    facet_status status = figure_need_own(f, what, why);
+    if (!status && f->minus) status = figure_need_own(&(figure){.materials = f->minus, .n_materials = 1}, what, why);
+    if (!status && strcmp(f->quantity, "albedo") != 0) status = figure_need_terms(f, f->quantity, why);
     for (int k = 0; k < (f->minus ? 2 : 1) && !status; k++) {
         status = check_variables(f, both[k], why);
         if (!status) status = add_values(f, both[k], k ? -1 : 1, d, why);

@@ -27,12 +27,12 @@ static void measure(const figure *f, lobe *l)
     double wo[3], wi[3], value[3];
     figure_direction(-f->thetas[0], f->phi, wo);
     l->largest = 0;
-    l->has_lower_half = facet_bsdf64_lobes(&f->materials[0].bsdf) & FACET_TRANSMISSION;
+    l->has_lower_half = figure_transmits(&f->materials[0]);
     for (int i = 0; i <= RINGS; i++)
         for (int k = 0; k <= AROUND; k++) {
             const double t = (double)i/RINGS;
             figure_around(f->thetas[0], f->phi, 180*t*t*t, 360.0*(k%AROUND)/AROUND, wi);
-            facet_bsdf64_eval(&f->materials[0].bsdf, wi, wo, value);
+            figure_eval(&f->materials[0], wi, wo, value);
             l->lengths[i][k] = figure_channel_of(f, value);
             l->largest = fmax(l->largest, l->lengths[i][k]);
             for (int j = 0; j < 3; j++) l->points[i][k][j] = wi[j];

@@ -10,11 +10,13 @@
 #include "plot/figure.h"
 #include "verify/views.h"
 
-static facet_sample64 draw_one(const figure_material *m, const double wo[3], verify_random *random)
+/* False if the draw gives no sample; the weight is then 0. */
+static bool draw_one(const figure_material *m, const double wo[3], verify_random *random, double wi[3],
+                     double weight[3])
 {
     double u[3];
     for (int k = 0; k < 3; k++) u[k] = verify_draw(random);
-    return facet_bsdf64_sample(&m->bsdf, wo, u);
+    return figure_sample(m, wo, u, wi, weight);
 }
 
 /* ---- Scatter ----------------------------------------------------------------------------------- */
@@ -43,7 +45,8 @@ static void draw_disc(canvas *page, point centre, double radius)
 
 facet_status draw_samples(canvas *page, box place, const figure *f, facet_error *why)
 {
-    (void)why;
+    const facet_status status = figure_need_sampler(f, why);
+    if (status) return status;
     const double em = canvas_em(page);
     frame_title(page, &place, place.x + 0.5*place.width, f->title);
     const double radius = 0.5*fmin(place.width - em, place.height - 4*em);
@@ -54,19 +57,21 @@ facet_status draw_samples(canvas *page, box place, const figure *f, facet_error 
     verify_random random = {f->seed};
     uint64_t n_lost = 0;
     for (uint64_t i = 0; i < f->n_samples; i++) {
-        const facet_sample64 s = draw_one(&f->materials[0], wo, &random);
-        const colour ink = palette_colour(s.wi[2] > 0 ? 0 : 1);
-        if (!(s.pdf > 0)) n_lost++;
-        else
-            canvas_disc(page, (point){centre.x + radius*s.wi[0], centre.y - radius*s.wi[1]}, 0.11*em,
-                        (colour){ink.r, ink.g, ink.b, 0.55});
+        double wi[3], weight[3];
+        if (!draw_one(&f->materials[0], wo, &random, wi, weight)) {
+            n_lost++;
+            continue;
+        }
+        const colour ink = palette_colour(wi[2] > 0 ? 0 : 1);
+        canvas_disc(page, (point){centre.x + radius*wi[0], centre.y - radius*wi[1]}, 0.11*em,
+                    (colour){ink.r, ink.g, ink.b, 0.55});
     }
     const point view = {centre.x + radius*wo[0], centre.y - radius*wo[1]};
     canvas_circle(page, view, 0.4*em, (pen){BLACK, 0.13, SOLID});
     text_style style = label_style;
     style.is_formula = true;
     canvas_text(page, (point){view.x + 0.9*em, view.y - 1.1*em}, style, "ω_o");
-    const bool has_two_sides = facet_bsdf64_lobes(&f->materials[0].bsdf) & FACET_TRANSMISSION;
+    const bool has_two_sides = figure_transmits(&f->materials[0]);
     char note[128];
     snprintf(note, sizeof note, "%" PRIu64 " directions ω_i seen from above%s, %" PRIu64 " without a sample",
              f->n_samples, has_two_sides ? " (below: orange)" : "", n_lost);
@@ -97,10 +102,10 @@ static double shown(double error)
 
 static size_t converge(const figure *f, const figure_material *m, convergence *c)
 {
-    double wo[3], reflected[3], transmitted[3], sums[N_RUNS] = {0}, errors[N_RUNS];
+    double wo[3], reflected, transmitted, sums[N_RUNS] = {0}, errors[N_RUNS];
     figure_direction(-f->thetas[0], f->phi, wo);
-    facet_bsdf64_albedo(&m->bsdf, wo, reflected, transmitted, NULL);
-    const double truth = figure_channel_of(f, reflected) + figure_channel_of(f, transmitted);
+    figure_albedo(f, m, wo, &reflected, &transmitted);
+    const double truth = reflected + transmitted;
     verify_random random[N_RUNS];
     for (int run = 0; run < N_RUNS; run++) random[run].state = f->seed + ((uint64_t)run << 40);
     size_t n_counts = 0;
@@ -109,7 +114,10 @@ static size_t converge(const figure *f, const figure_material *m, convergence *c
         if (n > f->n_samples) n = f->n_samples;
         double squares = 0;
         for (int run = 0; run < N_RUNS; run++) {
-            for (uint64_t i = done; i < n; i++) sums[run] += figure_channel_of(f, draw_one(m, wo, &random[run]).weight);
+            for (uint64_t i = done; i < n; i++) {
+                double wi[3], weight[3];
+                if (draw_one(m, wo, &random[run], wi, weight)) sums[run] += figure_channel_of(f, weight);
+            }
             errors[run] = fabs(sums[run]/(double)n/truth - 1);
             squares += errors[run]*errors[run];
         }
@@ -128,11 +136,12 @@ facet_status draw_convergence(canvas *page, box place, const figure *f, facet_er
 {
     convergence *runs = malloc(f->n_materials*sizeof *runs);
     series *items = malloc(f->n_materials*sizeof *items);
-    facet_status status = FACET_OK;
+    facet_status status = figure_need_sampler(f, why);
     if (!runs || !items) {
         status = facet_error_set(why, FACET_NO_MEMORY, "", "no memory for the runs");
         goto done;
     }
+    if (status) goto done;
     for (size_t k = 0; k < f->n_materials; k++) {
         const size_t n = converge(f, &f->materials[k], &runs[k]);
         items[k] = series_make(k, runs[k].label, n, runs[k].n, runs[k].rms);

@@ -14,7 +14,7 @@ static colour slice_cell(const void *context, size_t column, size_t row)
     double wi[3], wo[3], value[3] = {0, 0, 0};
     if (!figure_half_angles(((double)column + 0.5)*step, f->phi, 90 - ((double)row + 0.5)*step, 90, wi, wo))
         return GREY;
-    facet_bsdf64_eval(&f->materials[0].bsdf, wi, wo, value);
+    figure_eval(&f->materials[0], wi, wo, value);
     for (int k = 0; k < 3; k++) value[k] *= f->times/wi[2];
     return tone(value);
 }

@@ -11,7 +11,7 @@ static double value_D(const figure *f, const figure_material *m, double theta, d
     (void)theta;
     double v[3];
     figure_direction(x, f->phi, v);
-    return facet_bsdf64_D(&m->bsdf, v);
+    return figure_D(m, v);
 }
 
 static double value_Lambda(const figure *f, const figure_material *m, double theta, double x)
@@ -19,7 +19,7 @@ static double value_Lambda(const figure *f, const figure_material *m, double the
     (void)theta;
     double v[3];
     figure_direction(x, f->phi, v);
-    return v[2] > 0 ? facet_bsdf64_terms(&m->bsdf, v).Lambda : NAN; /* infinite at 90 degrees */
+    return v[2] > 0 ? figure_Lambda(m, v) : NAN; /* infinite at 90 degrees */
 }
 
 static double value_G1(const figure *f, const figure_material *m, double theta, double x)
@@ -27,7 +27,7 @@ static double value_G1(const figure *f, const figure_material *m, double theta, 
     (void)theta;
     double v[3];
     figure_direction(x, f->phi, v);
-    return facet_bsdf64_terms(&m->bsdf, v).G1;
+    return figure_G1(m, v);
 }
 
 facet_status draw_D(canvas *page, box place, const figure *f, facet_error *why)
@@ -111,7 +111,8 @@ facet_status draw_F(canvas *page, box place, const figure *f, facet_error *why)
                              .high = 90,
                              .is_symmetric = true};
     figure_material pair[2];
-    facet_status status = figure_need_terms(f, "Fresnel term of microfacets", why);
+    facet_status status = figure_need_own(f, "a Fresnel term that can be shown alone", why);
+    if (!status) status = figure_need_terms(f, "Fresnel term of microfacets", why);
     for (size_t k = 0; k < f->n_materials && !status; k++) status = make_pair(&f->materials[k], pair, why);
     return status ? status : draw_curves(page, place, f, &kind, why);
 }

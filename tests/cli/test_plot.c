@@ -12,6 +12,7 @@
 
 #include "io/image_file.h"
 #include "plot/figure.h"
+#include "tests/merl_file.h"
 #include "tests/run_program.h"
 
 static char *folder;
@@ -196,6 +197,93 @@ static void a_file_that_stands_in_the_way_stays_as_it_was(void **state)
     free(bytes);
 }
 
+/* Two pictures of the same size, equal but for roundings to the next byte. */
+static void expect_same_picture(const char *a, const char *b)
+{
+    const char *const names[] = {a, b};
+    image pictures[2] = {{0}};
+    for (int k = 0; k < 2; k++) assert_int_equal(image_read(in_folder(folder, names[k]), &pictures[k], NULL), FACET_OK);
+    assert_true(pictures[0].width == pictures[1].width && pictures[0].height == pictures[1].height);
+    const unsigned char *const x = pictures[0].pixels, *const y = pictures[1].pixels;
+    for (size_t i = 0; i < 3*pictures[0].width*pictures[0].height; i++)
+        if (abs(x[i] - y[i]) > 1) fail_msg("%s and %s differ at byte %zu: %d, %d", a, b, i, x[i], y[i]);
+    for (int k = 0; k < 2; k++) image_destroy(&pictures[k]);
+}
+
+/* A measurement of f = 1/pi is drawn as the Lambert reflector that it is. */
+static void measurements_are_drawn_like_models(void **state)
+{
+    (void)state;
+    need_cairo();
+    static const char *const figures[] = {"f", "fcos", "albedo", "theta-h", "theta-d", "slice", "lobe"};
+    static const char *const without[] = {"D",           "Lambda",  "G1",          "F",       "pdf",
+                                          "heightfield", "samples", "convergence", "G1-error"};
+    write_merl(in_folder(folder, "white.binary"));
+    for (int k = 0; k < 7; k++) {
+        expect(RUN("merl file=white.binary", "--label", "white", "--of", figures[k], "-o", "a.png"), 0, "");
+        expect(RUN("lambert kd=1", "--label", "white", "--of", figures[k], "-o", "b.png"), 0, "");
+        expect_same_picture("a.png", "b.png");
+    }
+    for (int k = 0; k < 9; k++)
+        expect(RUN("ggx", "merl file=white.binary", "--of", without[k], "-o", "y.png"), 2, "merl file=white.binary: ");
+    expect(RUN("ggx", "--minus", "merl file=white.binary", "--of", "heightfield", "-o", "y.png"), 2,
+           "merl file=white.binary: is none of facet's models");
+    expect(RUN("merl", "--of", "f", "-o", "y.png"), 2, "SPEC:merl: has no file; write `merl file=FILE.binary`");
+    expect(RUN("merl file=absent.binary", "--of", "f", "-o", "y.png"), 3, "absent.binary: ");
+    write_text(in_folder(folder, "text.binary"), "no measurements\n");
+    expect(RUN("merl file=text.binary", "--of", "f", "-o", "y.png"), 3, "text.binary:byte 0: its sizes are");
+}
+
+#define PLUGIN(name) "plugin file=" FACET_PLUGINS "/" name ".so"
+
+/* GTR with gamma 1 and its own D, but the masking of GGX. */
+static void plugins_are_drawn_like_models(void **state)
+{
+    (void)state;
+    need_cairo();
+    static const char *const figures[] = {"f",       "fcos",  "pdf",  "albedo",  "theta-h",
+                                          "theta-d", "slice", "lobe", "samples", "convergence"};
+    static const struct {
+        const char *of, *plugin, *model;
+    } same[] = {{"D", PLUGIN("gtr1_ggx_masking") " alpha=.2", "gtr gamma=1 alpha=.2"},
+                {"G1", PLUGIN("gtr1_ggx_masking"), "ggx alpha=.25"},
+                {"Lambda", PLUGIN("gtr1_ggx_masking"), "ggx alpha=.25"}};
+    for (int k = 0; k < 3; k++) {
+        expect(RUN(same[k].plugin, "--label", "it", "--of", same[k].of, "-o", "a.png"), 0, "");
+        expect(RUN(same[k].model, "--label", "it", "--of", same[k].of, "-o", "b.png"), 0, "");
+        expect_same_picture("a.png", "b.png");
+    }
+    for (int k = 0; k < 10; k++) {
+        expect(
+            RUN(PLUGIN("gtr1_ggx_masking"), "ggx", "--of", figures[k], "-o", "a.png", "-n", "20", "--size", "600x500"),
+            0, "");
+        expect_picture("a.png", 600, 500);
+    }
+    expect(RUN(PLUGIN("gtr1_ggx_masking"), "--of", "F", "-o", "y.png"), 2, "is none of facet's models");
+}
+
+static void plugins_that_fail_end_with_a_line(void **state)
+{
+    (void)state;
+    need_cairo();
+#define BAD(...) RUN(__VA_ARGS__, "ggx", "--of", "f", "-o", "z.png")
+    expect(BAD("plugin"), 2, "SPEC:plugin: has no file; write `plugin file=FILE.so");
+    expect(BAD("plugin file=a.so file=b.so"), 2, "SPEC:file: the key is given twice");
+    expect(BAD("plugin file=absent.so"), 3, "absent.so: No such file");
+    expect(BAD(PLUGIN("gtr1_ggx_masking") " alfa=.1"), 2, "did you mean `alpha`?");
+    expect(BAD(PLUGIN("gtr1_ggx_masking") " alpha=7"), 2, "gtr1_ggx_masking.so:alpha: 7 is out of range");
+    expect(BAD(PLUGIN("no_describe")), 3, "defines no facet_plugin_describe");
+    /* The one that fails is named, not the first one. */
+    expect(BAD(PLUGIN("gtr1_ggx_masking"), PLUGIN("crash")), 3, "crash.so: the plugin was ended by signal 11");
+    expect(BAD(PLUGIN("gtr1_ggx_masking"), PLUGIN("hang"), "--patience", "0.5"), 3,
+           "hang.so: the plugin has not returned for 0.5 s in eval");
+#undef BAD
+    program_run files = run_program(folder, NULL, NULL,
+                                    (const char *const[]){"/bin/sh", "-c", "ls z*; ls *tmp*", NULL});
+    assert_string_equal(files.out, "");
+    program_run_free(&files);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -206,6 +294,9 @@ int main(void)
         cmocka_unit_test(bad_requests_are_refused_and_leave_nothing),
         cmocka_unit_test(variables_of_height_fields_are_checked),
         cmocka_unit_test(a_file_that_stands_in_the_way_stays_as_it_was),
+        cmocka_unit_test(measurements_are_drawn_like_models),
+        cmocka_unit_test(plugins_are_drawn_like_models),
+        cmocka_unit_test(plugins_that_fail_end_with_a_line),
     };
     return cmocka_run_group_tests(tests, setup, teardown);
 }

@@ -17,6 +17,7 @@
 
 #include "io/image_file.h"
 #include "plot/canvas.h"
+#include "tests/merl_file.h"
 #include "tests/run_program.h"
 
 static char *folder;
@@ -209,22 +210,6 @@ static void what_was_verified_is_drawn(void **state)
     expect(RUN("--plugin", plugin("sampler_alpha"), "--samples", "20000", "--plot", "wrong"), 1, "fail", "");
     assert_true(coloured_share("wrong/3-chi-square.png", 1320, 1065) > 0.3);
     expect(RUN("--plugin", plugin("crash"), "--plot", "wrong"), 3, "", "was ended by signal 11");
-}
-
-/* A file of the MERL database with f = 1/pi everywhere. */
-static void write_merl(const char *path)
-{
-    static const int sizes[3] = {90, 90, 180};
-    static const double scales[3] = {1/1500.0, 1.15/1500, 1.66/1500};
-    FILE *stream = fopen(path, "wb");
-    assert_non_null(stream);
-    fwrite(sizes, sizeof sizes, 1, stream);
-    for (int channel = 0; channel < 3; channel++)
-        for (int i = 0; i < 90*90*180; i++) {
-            const double value = 0.31830988618379067/scales[channel];
-            fwrite(&value, sizeof value, 1, stream);
-        }
-    assert_int_equal(fclose(stream), 0);
 }
 
 static void measurements_are_drawn(void **state)

@@ -95,6 +95,12 @@ test("a .brdf file of Disney's Explorer is compiled and shown with its parameter
   );
   await page.waitForFunction(() => document.querySelectorAll(".entry").length === 3);
   assert.match(page.url(), /my_blinn.brdf/);
+  const [kept] = readFileSync(await saved(page, ".bparam"), "utf8").match(/^float n .*$/m);
+  assert.equal(kept, "float n 1.000000 1000.000000 7.000000");
+  assert.match(readFileSync(join(scratch, "my_blinn.bparam"), "utf8"), /^bparam my_blinn\.brdf\n::begin parameters\n/);
+  await chosen(page).setInputFiles(join(scratch, "my_blinn.bparam"));
+  await page.waitForTimeout(300);
+  assert.equal(await page.locator(".message").count(), 0, "what was saved can be opened");
   assert.deepEqual(complaints, []);
   await close();
 });

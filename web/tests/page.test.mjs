@@ -99,6 +99,34 @@ test("moving a slider changes the picture, the spec and the address", async () =
   await close();
 });
 
+test("directions are typed, reset by a double click, and dragged in the view", async () => {
+  const { page, close } = await open(browser, site.address, "m=ggx+alpha%3D.3&of=fcos&scale=linear");
+  const typed = page.getByLabel("θₒ, value"),
+    slider = page.getByRole("slider", { name: "θₒ" });
+  const theta = async value => {
+    for (let i = 0; i < 50 && (await typed.inputValue()) !== value; i++) await page.waitForTimeout(40);
+    assert.equal(await typed.inputValue(), value);
+  };
+  await typed.fill("200");
+  await typed.press("Enter");
+  await theta("89.9");
+  await typed.fill("30");
+  await typed.press("Enter");
+  await theta("30");
+  await typed.dblclick();
+  await page.waitForTimeout(100);
+  await theta("30"); // a double click there selects the number
+  await slider.dblclick();
+  await theta("45");
+  const box = await page.locator("svg.can-drag").boundingBox();
+  await page.mouse.move(box.x + 0.3 * box.width, box.y + 0.5 * box.height);
+  await page.mouse.down();
+  await page.mouse.move(box.x + 0.2 * box.width, box.y + 0.5 * box.height, { steps: 4 });
+  await page.mouse.up();
+  await page.waitForFunction(() => Number(new URLSearchParams(location.hash.slice(1)).get("theta")) > 50);
+  await close();
+});
+
 test("what the library refuses is said where it was typed", async () => {
   const { page, close } = await open(browser, site.address, "m=ggx");
   await page.locator(".spec").fill("ggx alpha=7");

@@ -69,6 +69,25 @@ for (const curve of CURVES)
     }
   });
 
+test("red, green and blue are three curves of the values that the channels have alone", async () => {
+  const gold = "of=fcos&scale=linear&m=ggx+alpha%3D.3+metal%3DAu";
+  const { page, complaints, close } = await open(browser, site.address, `${gold}&channel=colours`);
+  await page.waitForFunction(() => document.querySelectorAll("path.curve").length === 3);
+  const peak = path => Math.min(...path.match(/,[\d.]+/g).map(y => Number(y.slice(1))));
+  const [red, green, blue] = (
+    await page.locator("path.curve").evaluateAll(all => all.map(one => one.getAttribute("d")))
+  ).map(peak);
+  assert.ok(red < green && green < blue, `gold is yellow: ${red} ${green} ${blue} from above`);
+  await screenshot(page, "curves-colours");
+  await page.locator(".menu select").first().selectOption("albedo");
+  await page.waitForFunction(
+    () => (document.querySelector(".curve")?.getAttribute("d").match(/L/g) ?? []).length >= 20,
+  );
+  assert.ok(!(await page.locator(".curve").getAttribute("d")).includes("NaN"));
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
 test("albedos arrive from the worker, and agree with facet's", async () => {
   const { page, complaints, close } = await open(browser, site.address, "of=albedo&scale=linear&m=lambert+kd%3D.5");
   await page.waitForFunction(

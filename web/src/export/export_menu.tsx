@@ -3,11 +3,12 @@
  * SPDX-License-Identifier: MIT */
 import type { JSX } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
+import { ShaderBrdf } from "../brdf/shader_brdf";
 import { FacetBrdf } from "../facet/facet_brdf";
 import { Icon, IconButton } from "../panel/icons";
 import { useAround } from "../session";
 import { selectedEntry, type State } from "../state/state";
-import { cFile, gltfFile, glslMaterial, specFile, type TextFile } from "./material_files";
+import { bparamFile, cFile, gltfFile, glslMaterial, specFile, type TextFile } from "./material_files";
 import { pictureOf, pngOf, save } from "./picture";
 
 export function ExportMenu({ state }: { state: State }): JSX.Element {
@@ -38,11 +39,12 @@ export function ExportMenu({ state }: { state: State }): JSX.Element {
     save(kind === "svg" ? new Blob([picture.svg], { type: "image/svg+xml" }) : await pngOf(picture), name);
     menu.current?.removeAttribute("open");
   };
-  const saveText = async (make: (one: FacetBrdf) => TextFile | Promise<TextFile>): Promise<void> => {
-    if (!(brdf instanceof FacetBrdf)) return;
-    const { name, type, text } = await make(brdf);
+  const saveFile = ({ name, type, text }: TextFile): void => {
     save(new Blob([text], { type }), name);
     menu.current?.removeAttribute("open");
+  };
+  const saveText = async (make: (one: FacetBrdf) => TextFile | Promise<TextFile>): Promise<void> => {
+    if (brdf instanceof FacetBrdf) saveFile(await make(brdf));
   };
   const copy = async (): Promise<void> => {
     await navigator.clipboard.writeText(location.href);
@@ -70,6 +72,14 @@ export function ExportMenu({ state }: { state: State }): JSX.Element {
           <button type="button" onClick={() => void saveView("png")}>
             PNG
           </button>
+          {brdf instanceof ShaderBrdf && (
+            <>
+              <p>{brdf.label}</p>
+              <button type="button" onClick={() => saveFile(bparamFile(brdf))}>
+                parameters (.bparam)
+              </button>
+            </>
+          )}
           <p>{brdf instanceof FacetBrdf ? brdf.text : "a material of the library's, selected"}</p>
           {texts.map(([label, act]) => (
             <button key={label} type="button" disabled={!(brdf instanceof FacetBrdf)} onClick={act}>

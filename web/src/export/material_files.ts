@@ -1,6 +1,7 @@
 /* material_files.ts: one material as text for elsewhere: spec, glTF, GLSL, C.
  *
  * SPDX-License-Identifier: MIT */
+import type { ShaderBrdf } from "../brdf/shader_brdf";
 import type { FacetBrdf } from "../facet/facet_brdf";
 import { glslFile, glslName, KERNEL_FILES } from "../gl/shading";
 
@@ -56,6 +57,18 @@ vec3 material_eval(vec3 wi, vec3 wo) { return ${name}_eval(${name}_load(material
 bsdf_sample material_sample(vec3 wo, vec3 u) { return ${name}_sample(${name}_load(material_words), wo, u); }
 `;
   return { name: "material.glsl", type: "text/plain", text };
+}
+
+/** A .brdf file's values as Disney's BRDF Explorer keeps them; it looks for the file where the first line says. */
+export function bparamFile({ settings: { model, values } }: ShaderBrdf): TextFile {
+  const lines = model.parameters.map(({ name, kind, low, high }, k) => {
+    const numbers = values[k].map(x => x.toFixed(6));
+    if (kind === "choice") return `bool ${name} ${values[k][0]}`;
+    if (kind === "colour") return `color ${name} ${numbers.join(" ")}`;
+    return `float ${name} ${low.toFixed(6)} ${high.toFixed(6)} ${numbers[0]}`;
+  });
+  const text = ["bparam " + model.name, "::begin parameters", ...lines, "::end parameters", ""].join("\n");
+  return { name: model.name.replace(/\.brdf$/i, "") + ".bparam", type: "text/plain", text };
 }
 
 export function cFile(brdf: FacetBrdf): TextFile {

@@ -1,11 +1,14 @@
-/* objects.ts: objects under light from all around, sampled by its brightness, until there are enough samples.
+/* objects.ts: objects under light from all around, until there are enough samples, each of which is a direction drawn by
+ * the brightness of the light and one drawn by the material, weighted by the power heuristic.
  *
+ * [veach97] Veach, Robust Monte Carlo Methods for Light Transport Simulation, 1997, section 9.2.
  * Sums are kept in two textures of 32-bit floats in turn: red, green, blue, and how many samples.
  * SPDX-License-Identifier: MIT */
 import * as twgl from "twgl.js";
 import type { Brdf } from "../brdf/brdf";
 import type { Environment } from "../brdf/environment";
-import { lightSamples, type Lights } from "../brdf/light_samples";
+import { densityMap, lightSamples, materialNumbers } from "../brdf/light_samples";
+import type { State } from "../state/state";
 import type { Camera } from "./camera";
 import { HEAD, Programs, QUAD_VERTEX } from "./programs";
 import type { Shading } from "./shading";
@@ -36,21 +39,58 @@ void main()
     gl_Position = vec4(scale*vec2(dot(right, position), dot(up, position)) + shift, -0.4*dot(out_, position), 1);
 }`;
 
-const REST = `
+/* Two programs, one for each way to draw directions, and a pass for each sample: of loops around a sampler the optimiser
+ * of software rendering (SwiftShader) takes minutes. */
+const START = `
 uniform vec3 out_;
-uniform int n_lights;
-uniform vec3 lights[${MOST_EACH}], powers[${MOST_EACH}];
+uniform float n_added;
+uniform bool is_alone; // without the other way
 uniform sampler2D before;
 in vec3 n, t;
 out vec4 result;
+float weight_of(float own, float other) { float ratio = is_alone ? 0.0 : other/own; return 1.0/(1.0 + ratio*ratio); }
 void main()
 {
     vec3 axis = normalize(dot(n, out_) < 0.0 ? -n : n), x = normalize(t - dot(t, axis)*axis), y = cross(axis, x);
     vec3 wo = normalize(vec3(dot(out_, x), dot(out_, y), max(dot(out_, axis), 0.01))), sum = vec3(0);
-    for (int k = 0; k < n_lights; k++)
-        sum += shade_eval(vec3(dot(lights[k], x), dot(lights[k], y), dot(lights[k], axis)), wo)*powers[k];
-    result = texelFetch(before, ivec2(gl_FragCoord.xy), 0) + vec4(sum, n_lights);
+`,
+  END = `
+    result = texelFetch(before, ivec2(gl_FragCoord.xy), 0) + vec4(sum, n_added);
 }`;
+
+const BY_LIGHT = `
+uniform vec3 light, power;
+uniform float density;
+${START}
+    vec3 wi = vec3(dot(light, x), dot(light, y), dot(light, axis)), f = shade_eval(wi, wo);
+    if (f != vec3(0)) sum = f*power*weight_of(density, shade_pdf(wi, wo));
+${END}`;
+
+const BY_MATERIAL = `
+uniform vec3 numbers;
+uniform sampler2D environment; // radiance, and the density with which directions to it are drawn
+// An offset for each pixel, so that neighbours do not err alike.
+vec3 offset_of(uvec2 pixel)
+{
+    uvec3 v = uvec3(pixel, pixel.x ^ 0x9e3779b9u)*1664525u + 1013904223u;
+    v.x += v.y*v.z; v.y += v.z*v.x; v.z += v.x*v.y;
+    v ^= v >> 16u;
+    v.x += v.y*v.z; v.y += v.z*v.x; v.z += v.x*v.y;
+    return vec3(v >> 8u)/16777216.0;
+}
+vec4 light_from(vec3 v)
+{
+    ivec2 size = textureSize(environment, 0);
+    vec2 at = vec2(fract(atan(v.x, v.y)/6.28318531), acos(clamp(v.z, -1.0, 1.0))/3.14159265);
+    return texelFetch(environment, min(ivec2(at*vec2(size)), size - 1), 0);
+}
+${START}
+    vec3 wi;
+    float pdf;
+    vec3 weight = shade_sample(wo, fract(numbers + offset_of(uvec2(gl_FragCoord.xy))), wi, pdf);
+    vec4 light = light_from(x*wi.x + y*wi.y + axis*wi.z);
+    if (weight != vec3(0)) sum = weight*light.rgb*weight_of(pdf, light.a);
+${END}`;
 
 const DISPLAY = `${HEAD}
 uniform sampler2D sums;
@@ -77,15 +117,18 @@ export interface ObjectScene {
   readonly tiles: readonly ObjectTile[];
   readonly shape: Shape;
   readonly environment: Environment;
+  readonly sampling: State["sampling"];
   readonly camera: Camera;
   readonly exposure: number;
 }
 
 export class ObjectRenderer {
-  private readonly programs: Programs;
+  /** By the light, by the material. */
+  private readonly programs: readonly Programs[];
   private readonly display: twgl.ProgramInfo;
   private sums: Sums[] = [];
   private mesh: { shape: Shape; vao: WebGLVertexArrayObject } | undefined;
+  private light: { environment: Environment; texture: WebGLTexture } | undefined;
   /** Pixels of the sums for a pixel of the canvas. */
   private quality = 1;
   private key = "";
@@ -98,7 +141,7 @@ export class ObjectRenderer {
   constructor(private readonly gl: WebGL2RenderingContext) {
     if (!gl.getExtension("EXT_color_buffer_float"))
       throw new Error("This view sums in floats, which this browser's WebGL cannot draw to (EXT_color_buffer_float).");
-    this.programs = new Programs(gl, VERTEX, HEAD, REST);
+    this.programs = [BY_LIGHT, BY_MATERIAL].map(rest => new Programs(gl, VERTEX, HEAD, rest));
     this.display = twgl.createProgramInfo(gl, [QUAD_VERTEX, DISPLAY]);
   }
 
@@ -134,6 +177,17 @@ export class ObjectRenderer {
       gl.bindVertexArray(null);
       this.mesh = { shape: scene.shape, vao };
     }
+    if (this.light?.environment !== scene.environment) {
+      const { width, height } = scene.environment,
+        texture = this.light?.texture ?? gl.createTexture()!;
+      gl.activeTexture(gl.TEXTURE0);
+      gl.bindTexture(gl.TEXTURE_2D, texture);
+      const texels = densityMap(scene.environment);
+      gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA32F, width, height, 0, gl.RGBA, gl.FLOAT, texels);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+      gl.texParameteri(gl.TEXTURE_2D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
+      this.light = { environment: scene.environment, texture };
+    }
   }
 
   /** Whether the last round is over, and as much time again for the rest of the page has passed. */
@@ -162,31 +216,49 @@ export class ObjectRenderer {
       this.key = scene.key;
       this.frame = this.n_done = 0;
     }
-    const programs = scene.tiles.map(tile => this.programs.of(tile.shading));
-    if (programs.some(program => !program)) return false;
-    if (this.samples < MOST_SAMPLES) this.accumulate(scene, programs as WebGLProgram[]);
+    const ways = this.programs.filter((_, k) => scene.sampling !== (k ? "light" : "material"));
+    const programs = ways.map(way => scene.tiles.map(tile => way.of(tile.shading)));
+    if (programs.flat().some(program => !program)) return false;
+    if (this.samples < MOST_SAMPLES) this.accumulate(scene, programs as WebGLProgram[][]);
     this.show(scene.exposure);
     this.round = { fence: this.gl.fenceSync(this.gl.SYNC_GPU_COMMANDS_COMPLETE, 0)!, begun: performance.now() };
     return this.samples >= MOST_SAMPLES;
   }
 
-  private accumulate(scene: ObjectScene, programs: readonly WebGLProgram[]): void {
-    const { gl, frame } = this,
-      [from, to] = [this.sums[(frame + 1) % 2], this.sums[frame % 2]];
-    if (frame === 0) {
-      bindSums(gl, from);
+  /** One pass for each way to draw directions. */
+  private accumulate(scene: ObjectScene, ways: readonly (readonly WebGLProgram[])[]): void {
+    const { gl } = this;
+    if (this.frame === 0) {
+      bindSums(gl, this.sums[0]);
       gl.clearBufferfv(gl.COLOR, 0, [0, 0, 0, 0]);
     }
-    bindSums(gl, to);
-    this.copy(from, to);
-    gl.enable(gl.DEPTH_TEST);
-    gl.disable(gl.BLEND);
-    gl.clear(gl.DEPTH_BUFFER_BIT);
-    gl.bindVertexArray(this.mesh!.vao);
-    const lights = lightSamples(scene.environment, this.n_done, MOST_EACH);
-    scene.tiles.forEach((tile, i) => this.drawTile(scene, tile, programs[i], from, lights));
-    gl.bindVertexArray(null);
-    gl.disable(gl.DEPTH_TEST);
+    const lights = lightSamples(scene.environment, this.n_done, this.each),
+      numbers = materialNumbers(this.n_done, this.each);
+    for (let sample = 0; sample < this.each; sample++)
+      ways.forEach((programs, k) => {
+        const [from, to] = this.sums;
+        bindSums(gl, to);
+        this.copy(from, to);
+        gl.enable(gl.DEPTH_TEST);
+        gl.disable(gl.BLEND);
+        gl.clear(gl.DEPTH_BUFFER_BIT);
+        gl.bindVertexArray(this.mesh!.vao);
+        scene.tiles.forEach((tile, i) => {
+          const place = (name: string): WebGLUniformLocation | null => gl.getUniformLocation(programs[i], name),
+            three = (of: Float32Array): Float32Array => of.subarray(3 * sample, 3 * sample + 3);
+          gl.useProgram(programs[i]);
+          gl.uniform1i(place("is_alone"), Number(ways.length === 1));
+          gl.uniform1f(place("n_added"), k === 0 ? 1 : 0);
+          gl.uniform3fv(place("light"), three(lights.directions));
+          gl.uniform3fv(place("power"), three(lights.powers));
+          gl.uniform1f(place("density"), lights.densities[sample]);
+          gl.uniform3fv(place("numbers"), three(numbers));
+          this.drawTile(scene, tile, programs[i], from);
+        });
+        gl.bindVertexArray(null);
+        gl.disable(gl.DEPTH_TEST);
+        this.sums = [to, from];
+      });
     this.frame++;
     this.n_done += this.each;
   }
@@ -201,13 +273,12 @@ export class ObjectRenderer {
     gl.bindFramebuffer(gl.FRAMEBUFFER, to.framebuffer);
   }
 
-  private drawTile(scene: ObjectScene, tile: ObjectTile, program: WebGLProgram, before: Sums, lights: Lights): void {
+  private drawTile(scene: ObjectScene, tile: ObjectTile, program: WebGLProgram, before: Sums): void {
     const { gl, frame } = this,
       { width, height } = gl.canvas,
       { camera } = scene;
     const place = (name: string): WebGLUniformLocation | null => gl.getUniformLocation(program, name);
     const jitter = [((frame + 0.5) * 0.7548776662) % 1, ((frame + 0.5) * 0.5698402909) % 1];
-    gl.useProgram(program);
     gl.uniform3fv(place("right"), camera.right);
     gl.uniform3fv(place("up"), camera.up);
     gl.uniform3fv(place("out_"), camera.out);
@@ -217,9 +288,9 @@ export class ObjectRenderer {
       (2 * (tile.x + jitter[0] - 0.5)) / width - 1,
       (2 * (tile.y + jitter[1] - 0.5)) / height - 1,
     );
-    gl.uniform1i(place("n_lights"), this.each);
-    gl.uniform3fv(place("lights"), lights.directions);
-    gl.uniform3fv(place("powers"), lights.powers);
+    gl.activeTexture(gl.TEXTURE1);
+    gl.bindTexture(gl.TEXTURE_2D, this.light!.texture);
+    gl.uniform1i(place("environment"), 1);
     gl.activeTexture(gl.TEXTURE0);
     gl.bindTexture(gl.TEXTURE_2D, before.texture);
     gl.uniform1i(place("before"), 0);
@@ -233,7 +304,7 @@ export class ObjectRenderer {
     gl.viewport(0, 0, gl.canvas.width, gl.canvas.height);
     gl.useProgram(display.program);
     twgl.setUniforms(display, {
-      sums: this.sums[(this.frame + 1) % 2].texture,
+      sums: this.sums[0].texture,
       exposure,
       quality: this.quality,
       n_all: Math.max(1, this.samples),

@@ -1,10 +1,11 @@
-/* shading.ts: every material as GLSL: vec3 shade_eval(wi, wo), f |cos theta_i|, and shade_sample(wo, u, wi), which gives
- * the weight of a drawn wi, 0 if there is none.
+/* shading.ts: every material as GLSL: vec3 shade_eval(wi, wo), f |cos theta_i|; float shade_pdf(wi, wo), 1/sr; and vec3
+ * shade_sample(wo, u, wi, pdf), which gives the weight of a drawn wi, 0 if there is none.  Its pdf is SHADE_DELTA where
+ * only one direction is possible: mirrors and smooth glass.
  *
  * The library's models are the very files that it generates from its kernels, with their parameters as words.
  * SPDX-License-Identifier: MIT */
 import type { Brdf } from "../brdf/brdf";
-import { FacetBrdf } from "../facet/facet_brdf";
+import { FacetBrdf, LOBE } from "../facet/facet_brdf";
 
 export interface Shading {
   /** The same text, the same program. */
@@ -18,13 +19,17 @@ export interface Shaded extends Brdf {
   readonly shading: Shading;
 }
 
+export const SHADE_DELTA = "const float SHADE_DELTA = 1e30;\n";
+
 /** Directions with the density of the cosine, for what has no sampler. */
 export const COSINE_SAMPLER = `
-vec3 shade_sample(vec3 wo, vec3 u, out vec3 wi)
+float shade_pdf(vec3 wi, vec3 wo) { return max(wi.z, 0.0)/3.14159265; }
+vec3 shade_sample(vec3 wo, vec3 u, out vec3 wi, out float pdf)
 {
     float s = sqrt(u.x), phi = 6.2831853*u.y;
     wi = vec3(s*cos(phi), s*sin(phi), sqrt(max(1.0 - u.x, 0.0)));
-    return wi.z > 1e-4 ? shade_eval(wi, wo)*(3.14159265/wi.z) : vec3(0);
+    pdf = wi.z/3.14159265;
+    return wi.z > 1e-4 ? shade_eval(wi, wo)/pdf : vec3(0);
 }
 `;
 
@@ -62,10 +67,12 @@ async function facetShading(brdf: FacetBrdf): Promise<Shading> {
     text: `${text}
 uniform uvec4 material[${name.toUpperCase()}_WORDS];
 vec3 shade_eval(vec3 wi, vec3 wo) { return ${name}_eval(${name}_load(material), wi, wo); }
-vec3 shade_sample(vec3 wo, vec3 u, out vec3 wi)
+float shade_pdf(vec3 wi, vec3 wo) { return ${name}_pdf(${name}_load(material), wi, wo); }
+${SHADE_DELTA}vec3 shade_sample(vec3 wo, vec3 u, out vec3 wi, out float pdf)
 {
     bsdf_sample s = ${name}_sample(${name}_load(material), wo, u);
     wi = s.wi;
+    pdf = (s.lobe & ${LOBE.delta}) != 0 ? SHADE_DELTA : s.pdf;
     return s.pdf > 0.0 ? s.weight : vec3(0);
 }
 `,

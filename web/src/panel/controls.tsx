@@ -75,7 +75,13 @@ export function Amount(props: {
     else input.value = String(value);
   };
   return (
-    <label class="amount" onDblClick={() => props.set(props.initial)} title="double click resets">
+    <label
+      class="amount"
+      title="double click resets"
+      onDblClick={event => {
+        if (!(event.target as HTMLElement).matches(".typed")) props.set(props.initial);
+      }}
+    >
       <span>{label}</span>
       <input
         type="range"

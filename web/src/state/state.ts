@@ -19,7 +19,8 @@ export type Curve = (typeof CURVES)[number];
 export const SCALES = ["linear", "log", "shifted"] as const;
 export type Scale = (typeof SCALES)[number];
 
-export const CHANNELS = ["luminance", "red", "green", "blue"] as const;
+/** "colours": red, green and blue at once, as curves in these colours. */
+export const CHANNELS = ["luminance", "red", "green", "blue", "colours"] as const;
 export type Channel = (typeof CHANNELS)[number];
 
 /** Which of the two directions stands still in the views; the other one is the abscissa. */
@@ -27,6 +28,8 @@ export const FIXED = ["viewer", "light"] as const;
 
 export const ERROR_TERMS = ["G1", "Lambda", "f"] as const;
 export const ENVIRONMENTS = ["studio", "sky", "furnace", "spots"] as const;
+/** How directions are drawn under light from all around: by the light, by the material, or by both (weighted). */
+export const SAMPLINGS = ["both", "light", "material"] as const;
 export const OBJECTS = ["ball", "torus", "knot", "vase"] as const;
 
 /** Angles in degrees. */
@@ -62,6 +65,7 @@ export interface State {
   readonly isDoubled: boolean;
   readonly environment: (typeof ENVIRONMENTS)[number];
   readonly object: (typeof OBJECTS)[number];
+  readonly sampling: (typeof SAMPLINGS)[number];
   readonly turn: number;
   readonly tilt: number;
 }
@@ -96,6 +100,7 @@ export const DEFAULTS: State = {
   isDoubled: false,
   environment: "studio",
   object: "ball",
+  sampling: "both",
   turn: 30,
   tilt: 20,
 };

@@ -11,6 +11,7 @@ import {
   ERROR_TERMS,
   FIXED,
   OBJECTS,
+  SAMPLINGS,
   SCALES,
   VIEWS,
   type Entry,
@@ -46,6 +47,7 @@ const RULES: readonly Rule[] = [
   ["double", "isDoubled", "flag"],
   ["environment", "environment", ENVIRONMENTS],
   ["object", "object", OBJECTS],
+  ["sampling", "sampling", SAMPLINGS],
   ["turn", "turn", angle(-360, 360)],
   ["tilt", "tilt", angle(-90, 90)],
 ];

@@ -62,7 +62,8 @@ async function fill(queue: Queue, brdf: Brdf, phi: number, signal: AbortSignal, 
 }
 
 function channel(state: State, rgb: readonly number[]): number {
-  if (state.channel === "luminance") return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
+  if (state.channel === "luminance" || state.channel === "colours")
+    return 0.2126 * rgb[0] + 0.7152 * rgb[1] + 0.0722 * rgb[2];
   return rgb[["red", "green", "blue"].indexOf(state.channel)];
 }
 

@@ -37,6 +37,11 @@ export function channelOf(channel: Channel, rgb: Rgb): Float32Array {
   return rgb.r.map((r, i) => 0.2126 * r + 0.7152 * rgb.g[i] + 0.0722 * rgb.b[i]);
 }
 
+/** Whether a curve has a value for each channel. */
+export function isColoured(curve: Curve): boolean {
+  return ["F", "f", "fcos", "theta-h", "theta-d"].includes(curve);
+}
+
 /** The light and the viewer of each angle: one stands at -theta, the other at the angle in a plane turned by phi2. */
 export function planeDirections(state: State, angles: Float64Array): { wi: Directions; wo: Directions } {
   const moving = newDirections(angles.length);

@@ -10,7 +10,7 @@ import { useAround } from "../session";
 import { visibleEntries, type State } from "../state/state";
 import { DASHES, lineColour } from "../state/theme";
 import { useAlbedos, type AlbedoPoints } from "./albedo";
-import { curveNames, curvePoints, NoCurve, type Points } from "./curve_data";
+import { curveNames, curvePoints, isColoured, NoCurve, type Points } from "./curve_data";
 import { Figure, useSize } from "./figure";
 import { Legend, type LegendLine } from "./legend";
 
@@ -26,22 +26,21 @@ function useCurves(state: State, albedos: AlbedoPoints): Computed {
   for (const { entry, place } of visibleEntries(state)) {
     const { brdf } = session.resolve(entry);
     if (!brdf) continue;
-    let points: Points | undefined, note: string | undefined;
+    let curves: (readonly [Points | undefined, string])[] = [],
+      note: string | undefined;
     try {
-      points = state.curve === "albedo" ? albedos(brdf) : curvePoints(facet, brdf, state);
-      if (!points) note = "computing …";
+      const own = lineColour(theme, place);
+      if (state.channel === "colours" && isColoured(state.curve))
+        curves = CHANNEL_COLOURS.map(([channel, colour]) => [curvePoints(facet, brdf, { ...state, channel }), colour]);
+      else curves = [[state.curve === "albedo" ? albedos(brdf) : curvePoints(facet, brdf, state), own]];
+      if (!curves[0][0]) note = "computing …";
     } catch (error) {
       if (!(error instanceof NoCurve)) throw error;
       note = error.message;
     }
     lines.push({ place, label: brdf.label, ...(note ? { note } : {}) });
-    if (points)
-      series.push({
-        label: brdf.label,
-        colour: lineColour(theme, place),
-        dash: DASHES[place % DASHES.length],
-        ...points,
-      });
+    for (const [points, colour] of curves)
+      if (points) series.push({ label: brdf.label, colour, dash: DASHES[place % DASHES.length], ...points });
   }
   return { series, lines };
 }
@@ -70,6 +69,13 @@ function chartOf(state: State, series: readonly Series[], faint: string, ink: st
     marks,
   };
 }
+
+/** Told apart by those who confuse red and green, since one of them is light. */
+const CHANNEL_COLOURS = [
+  ["red", "#d03a2b"],
+  ["green", "#35b36a"],
+  ["blue", "#3f7fe0"],
+] as const;
 
 function isSymmetric(curve: State["curve"]): boolean {
   return curve === "D" || curve === "Lambda" || curve === "G1" || curve === "F";

@@ -19,7 +19,7 @@ class Painter implements TilePainter {
   }
 
   paint({ jobs, size, ratio }: TileFrame): boolean {
-    const { environment, object, turn, tilt, exposure } = this.state;
+    const { environment, object, sampling, turn, tilt, exposure } = this.state;
     const tiles = jobs.map(({ box, brdf, shading }) => ({
       x: (box.left + box.side / 2) * ratio,
       y: (size.height - box.top - box.side / 2) * ratio,
@@ -28,10 +28,11 @@ class Painter implements TilePainter {
     }));
     const places = tiles.map(({ x, y, side, brdf }) => [x, y, side, brdf.text]);
     const isDone = this.renderer.draw({
-      key: JSON.stringify([places, environment, object, turn, tilt]),
+      key: JSON.stringify([places, environment, object, sampling, turn, tilt]),
       tiles,
       shape: shapeOf(object),
       environment: environmentMap(environment),
+      sampling,
       camera: cameraAt(turn, tilt),
       exposure: 2 ** exposure,
     });

@@ -4,6 +4,7 @@
 import type { JSX } from "preact";
 import { Amount, Check, Choice, Menu } from "../panel/controls";
 import { useAround } from "../session";
+import { isColoured } from "./curve_data";
 import { DEFAULTS, ENVIRONMENTS, OBJECTS, type Channel, type Curve, type Scale, type State } from "../state/state";
 
 const CURVE_NAMES: readonly (readonly [Curve, string])[] = [
@@ -30,7 +31,6 @@ const CHANNEL_NAMES: readonly (readonly [Channel, string])[] = [
   ["green", "green"],
   ["blue", "blue"],
 ];
-
 /** An angle of the state with its slider. */
 type AngleKey =
   | "theta"
@@ -151,6 +151,11 @@ function SphereSettings({ state }: { state: State }): JSX.Element {
   );
 }
 
+const SAMPLING_NAMES: readonly (readonly [State["sampling"], string])[] = [
+  ["both", "light and material"],
+  ["light", "light"],
+  ["material", "material"],
+];
 const ENVIRONMENT_NAMES = ENVIRONMENTS.map(name => [name, name] as const);
 
 function ObjectSettings({ state }: { state: State }): JSX.Element {
@@ -170,6 +175,12 @@ function ObjectSettings({ state }: { state: State }): JSX.Element {
             value={state.object}
             values={OBJECTS.map(name => [name, name] as const)}
             set={object => store.step({ object })}
+          />
+          <Menu
+            label="directions by"
+            value={state.sampling}
+            values={SAMPLING_NAMES}
+            set={sampling => store.step({ sampling })}
           />
           <Angle state={state} of="turn" label="turn" low={0} high={360} step={1} />
           <Angle state={state} of="tilt" label="tilt" low={-90} high={90} step={1} />
@@ -232,7 +243,19 @@ export function Settings({ state }: { state: State }): JSX.Element {
         {(state.view === "object" || state.view === "traced") && <ObjectSettings state={state} />}
         {(state.view === "samples" || state.view === "checks") && <CountSettings state={state} />}
         {(state.view === "curves" || state.view === "lobe") && (
-          <Menu label="channel" value={state.channel} values={CHANNEL_NAMES} set={channel => store.step({ channel })} />
+          <Menu
+            label="channel"
+            value={state.channel}
+            values={
+              state.view === "curves" && isColoured(state.curve)
+                ? [...CHANNEL_NAMES, ["colours", "red, green and blue"]]
+                : [
+                    [state.channel === "colours" ? "colours" : "luminance", "luminance"] as const,
+                    ...CHANNEL_NAMES.slice(1),
+                  ]
+            }
+            set={channel => store.step({ channel })}
+          />
         )}
       </div>
     </div>
