@@ -1,5 +1,6 @@
 /* test_serve_browser.c: the page of `facet render --serve` in headless Chromium: what it says and what it looks like,
- * in light and dark, and what its buttons do.  FACET_SCREENSHOTS names a folder for people who want to look.  Skipped where there is no Chromium, or facet was built without civetweb.
+ * in light and dark, and what its buttons do.  FACET_SCREENSHOTS names a folder for people who want to look.
+ * Skipped where there is no Chromium, or facet was built without civetweb.
  * SPDX-License-Identifier: MIT */
 #include <setjmp.h>
 #include <signal.h>
@@ -44,7 +45,7 @@ static void skip_without_browser(void)
     skip();
 }
 
-/* Starts a render with a page that lasts, by an option, for `much`; returns the page's address, the caller's to free. */
+/* Starts a render that lasts as long as an option says; returns its page's address, the caller's to free. */
 static char *start(pid_t *pid, const char *lasts, const char *much, const char *stay)
 {
     const char *const argv[] = {FACET_PROGRAM, "render", "scene.gltf", "--size", "480x240", lasts, much,
