@@ -17,25 +17,7 @@
 
 #include "io/image_file.h"
 #include "tests/driven_browser.h"
-#include "tests/run_program.h"
-#include "tests/small_scene.h"
-
-static char *folder;
-
-static int setup(void **state)
-{
-    (void)state;
-    folder = make_folder();
-    write_text(in_folder(folder, "scene.gltf"), small_scene);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    remove_folder(folder);
-    return 0;
-}
+#include "tests/program_folder.h"
 
 static void skip_without_browser(void)
 {
@@ -217,5 +199,5 @@ int main(void)
         cmocka_unit_test(a_browser_shows_the_render_in_light_and_dark),
         cmocka_unit_test_teardown(finish_now_ends_the_render_with_its_picture, end_watched),
         cmocka_unit_test_teardown(cancel_stops_the_render_and_saves_it, end_watched)};
-    return cmocka_run_group_tests_name("serve_browser", tests, setup, teardown);
+    return cmocka_run_group_tests_name("serve_browser", tests, make_scene_folder, remove_test_folder);
 }
