@@ -24,21 +24,22 @@ help: ## this list
 	@sed -n 's/^\([a-z-]*\):.*## /\1|/p' Makefile | while IFS='|' read -r name what; do \
 	    printf '  make %-12s %s\n' "$$name" "$$what"; done
 
+# `make demo` alone leaves out what only the tests need, a third of all.
 setup: ## install the missing packages that building and testing need
-	@tools/setup.sh build
+	@tools/setup.sh $(if $(filter-out demo,$(or $(MAKECMDGOALS),help)),test)
 
 setup-check: ## ... and those of the checks
-	@tools/setup.sh check
+	@tools/setup.sh test check
 
 setup-package:
 	@tools/setup.sh package
 
 build: setup ## build everything (PRESET=dev)
-	cmake --preset $(PRESET)
+	cmake --preset $(PRESET) -DFACET_TESTS=ON
 	$(BUILD) $(PRESET) -j $(JOBS)
 
 demo: setup ## build the program and render the built-in scene to facet.png
-	cmake --preset release
+	cmake --preset release -DFACET_TESTS=OFF
 	$(BUILD) release -j $(JOBS) --target facet_program
 	build/release/facet render
 	@echo "the picture: $(CURDIR)/facet.png"
@@ -92,7 +93,7 @@ test-python: build ## those of the Python package alone, which need PyPI
 	@tools/test_python.sh build/$(PRESET)
 
 bench: setup ## build with -O3 and run the benchmarks
-	cmake --preset release
+	cmake --preset release -DFACET_TESTS=ON
 	$(BUILD) release -j $(JOBS)
 	@for program in build/release/bench/*; do \
 	    if [ -f "$$program" ] && [ -x "$$program" ]; then echo "== $$program"; "$$program" || exit 1; fi; done

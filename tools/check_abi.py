@@ -2,8 +2,8 @@
 """Programs built with the last release still run with this library: tools/check_abi.py
 
 Builds libfacet of the last tag vX.Y.Z and of this tree, and compares them by abidiff (Debian package abigail-tools).  What
-programs may rely on is what include/facet/facet.h declares.  Exit status 77, with the reason, where there is no such
-tag, no git or no abidiff.  First it is shown that a member added to a public struct is found.
+programs may rely on is what include/facet/facet.h declares.  A library with another SOVERSION may differ.  Exit status 77,
+with the reason, where there is no such tag, as in a clone without tags, no git or no abidiff.  First it is shown that a member added to a public struct is found.
 
 SPDX-License-Identifier: MIT
 """
@@ -30,6 +30,11 @@ def last_tag():
                           capture_output=True, text=True)
     tags = [tag for tag in done.stdout.split() if re.fullmatch(r"v\d+\.\d+\.\d+", tag)]
     return tags[0] if tags else None
+
+
+def soversion(text):
+    """What CMakeLists.txt has as the number in libfacet.so.N."""
+    return re.search(r"\bSOVERSION (\d+)", text)[1]
 
 
 def build(root, folder, names):
@@ -74,7 +79,13 @@ def main():
         if not status & CHANGED:
             sys.exit(f"abi: a changed struct was not noticed: status {status}\n{report}")
         if not tag:
-            skip("there is no release vX.Y.Z yet; a changed struct would be noticed")
+            skip("this clone has no tag vX.Y.Z to compare with; a changed struct would be noticed")
+        before = subprocess.run(["git", "-C", ROOT, "show", f"{tag}:CMakeLists.txt"], check=True, capture_output=True, text=True)
+        with open(os.path.join(ROOT, "CMakeLists.txt"), encoding="utf-8") as stream:
+            numbers = soversion(before.stdout), soversion(stream.read())
+        if numbers[0] != numbers[1]:
+            print(f"libfacet.so.{numbers[1]} may differ from libfacet.so.{numbers[0]} of {tag}")
+            return
         old = os.path.join(folder, "old")
         os.mkdir(old)
         archive = subprocess.run(["git", "-C", ROOT, "archive", tag, "core", "include"], check=True, capture_output=True)

@@ -1,12 +1,16 @@
 #!/usr/bin/env python3
-"""How much longer 10^6 pairs of directions take through the package than in C: a table for docs/python.md.
+"""How many times as long 10^6 pairs of directions take through the package as in C: the tables of docs/python.md.
 
-    python3 python/bench/overhead.py
+    python3 python/bench/overhead.py [SPEC ...]
 
-C is the batch function itself, on arrays of all x, all y and all z, without checks.
+C is the batch function itself, without checks, on columns: arrays of all x, all y and all z.  The package gets columns,
+and rows, arrays (n, 3).  Both write to arrays that are there already: `fresh` is the same call that makes new ones.  Calls
+take turns, so that what else runs disturbs all alike, each finds the caches full of something else, and the least time of
+each counts.  One thread.
 
 SPDX-License-Identifier: MIT
 """
+import sys
 import time
 
 import numpy as np
@@ -14,8 +18,9 @@ import numpy as np
 import facet
 from facet._library import ffi, lib
 
-N, REPEATS = 1_000_000, 41
-SPECS = ["ggx alpha=.3", "gtr alpha=.1 gamma=1.5", "disney", "phong"]
+N, REPEATS = 1_000_000, 31
+SPECS = ["lambert", "phong", "beckmann alpha=.3", "ggx alpha=.3", "ggx alpha_x=.1 alpha_y=.4", "ggx alpha=.3 energy=multi",
+         "gtr alpha=.1 gamma=1.5", "glass alpha=.3", "metallic_roughness", "ward", "cs500", "disney", "vray"]
 
 
 def directions(rng):
@@ -25,41 +30,56 @@ def directions(rng):
     return (w / np.sqrt((w * w).sum(axis=0))).T
 
 
-def best(*calls):
-    """The least time of each call [s], in turns, so that what else runs disturbs all alike."""
-    least = [np.inf] * len(calls)
+def best(calls):
+    """The least time of each call [s]."""
+    least, other = [np.inf] * len(calls), np.zeros(16 << 20, np.float32)
     for _ in range(REPEATS):
         for k, call in enumerate(calls):
+            other += 1
             start = time.perf_counter()
             call()
             least[k] = min(least[k], time.perf_counter() - start)
     return least
 
 
-def parts(a):
+def pointer(a):
+    return ffi.cast("float *", a.__array_interface__["data"][0])
+
+
+def columns_of(a):
     """Pointers to x, y and z."""
-    return [ffi.cast("float *", a[:, k].__array_interface__["data"][0]) for k in range(3)]
+    return [pointer(a[:, k]) for k in range(3)]
 
 
 def main():
     rng = np.random.default_rng(1)
     wi, wo, u = directions(rng), directions(rng), rng.random((3, N), np.float32).T
     rows_i, rows_o, rows_u = (np.ascontiguousarray(a) for a in (wi, wo, u))
-    f, rows_f = np.empty((3, N), np.float32).T, np.empty((N, 3), np.float32)
-    drawn = np.empty((7, N), np.float32)
-    samples = ffi.new("facet_samples *", [ffi.cast("float *", row.__array_interface__["data"][0]) for row in drawn])
-    print("| material | call | C [ns] | columns | rows (n, 3) |\n|---|---|---|---|---|")
-    for spec in SPECS:
+    i, o, x = columns_of(wi), columns_of(wo), columns_of(u)
+    f, p = np.zeros((3, N), np.float32).T, np.zeros(N, np.float32)
+    rows_f = np.zeros((N, 3), np.float32)
+    rgb = columns_of(f)
+    drawn = np.zeros((7, N), np.float32)
+    samples = ffi.new("facet_samples *", [pointer(row) for row in drawn])[0]
+    kept = facet.Sample(drawn[0:3].T, drawn[3], drawn[4:7].T)
+    rows_kept = facet.Sample(np.zeros((N, 3), np.float32), p, np.zeros((N, 3), np.float32))
+    verbs = {
+        "eval": (lambda m: lib.facet_bsdf_eval_batch(m._bsdf, N, i, o, rgb), lambda m: m.eval(wi, wo, out=f),
+                 lambda m: m.eval(rows_i, rows_o, out=rows_f), lambda m: m.eval(wi, wo)),
+        "pdf": (lambda m: lib.facet_bsdf_pdf_batch(m._bsdf, N, i, o, pointer(p)), lambda m: m.pdf(wi, wo, out=p),
+                lambda m: m.pdf(rows_i, rows_o, out=p), lambda m: m.pdf(wi, wo)),
+        "eval_pdf": (lambda m: lib.facet_bsdf_eval_pdf_batch(m._bsdf, N, i, o, rgb, pointer(p)),
+                     lambda m: m.eval_pdf(wi, wo, out=(f, p)), lambda m: m.eval_pdf(rows_i, rows_o, out=(rows_f, p)),
+                     lambda m: m.eval_pdf(wi, wo)),
+        "sample": (lambda m: lib.facet_bsdf_sample_batch(m._bsdf, N, o, x, samples), lambda m: m.sample(wo, u, out=kept),
+                   lambda m: m.sample(rows_o, rows_u, out=rows_kept), lambda m: m.sample(wo, u)),
+    }
+    print("| material | call | C [ns] | columns | rows (n, 3) | fresh |\n|---|---|---|---|---|---|")
+    for spec in sys.argv[1:] or SPECS:
         m = facet.material(spec)
-        kept, rows_kept = m.sample(wo, u), m.sample(rows_o, rows_u)
-        c, columns, rows = best(
-            lambda: lib.facet_bsdf_eval_batch(m._bsdf, N, parts(wi), parts(wo), parts(f)),
-            lambda: m.eval(wi, wo, out=f), lambda: m.eval(rows_i, rows_o, out=rows_f))
-        print(f"| `{spec}` | eval | {1e9 * c / N:.2f} | {columns / c:.2f} | {rows / c:.2f} |")
-        c, columns, rows = best(
-            lambda: lib.facet_bsdf_sample_batch(m._bsdf, N, parts(wo), parts(u), samples[0]),
-            lambda: m.sample(wo, u, out=kept), lambda: m.sample(rows_o, rows_u, out=rows_kept))
-        print(f"| `{spec}` | sample | {1e9 * c / N:.2f} | {columns / c:.2f} | {rows / c:.2f} |")
+        for verb, calls in verbs.items():
+            c, columns, rows, fresh = best([lambda call=call: call(m) for call in calls])
+            print(f"| `{spec}` | {verb} | {1e9 * c / N:.2f} | {columns / c:.2f} | {rows / c:.2f} | {fresh / c:.2f} |")
 
 
 if __name__ == "__main__":

@@ -178,13 +178,21 @@ class Material:
             (view(i, shape, 3), view(o, shape, 3), view(None, shape, 3), view(p, shape, 1)))
         return p[()] if out is None else p
 
-    def eval_pdf(self, wi: ArrayLike, wo: ArrayLike) -> tuple[Array, Array]:
-        """eval and pdf at once, for less than the two: the same bits."""
+    def eval_pdf(self, wi: ArrayLike, wo: ArrayLike, *,
+                 out: tuple[Array, Array] | None = None) -> tuple[Array, Array]:
+        """eval and pdf at once, for less than the two, with the same bits: shapes (..., 3) and (...) [1/sr].
+
+        `out`, the result of an earlier call of the same shape, is filled and returned.
+        """
         dtype, shape, i, o = _pair(wi, wo)
-        f, p = new_triples(shape, dtype, (i, o)), np.empty(shape, dtype)
+        if out is None:
+            f, p = new_triples(shape, dtype, (i, o)), np.empty(shape, dtype)
+        else:
+            f = check_out(out[0], (*shape, 3), dtype, (i, o))
+            p = check_out(out[1], shape, dtype, (i, o, f))
         run(loop_of("eval", dtype), self._prepared(dtype), shape, ("wi", "wo"),
             (view(i, shape, 3), view(o, shape, 3), view(f, shape, 3), view(p, shape, 1)))
-        return f, p[()]
+        return (f, p[()]) if out is None else out
 
     def sample(self, wo: ArrayLike, u: ArrayLike, *, out: Sample | None = None) -> Sample:
         """Draws wi for wo, shape (..., 3), from numbers u in [0, 1), shape (..., 3), that are drawn by the caller.

@@ -98,7 +98,8 @@ def render(scene: Scene = None, *, aov: Sequence[str] | None = None, size: tuple
     size: width and height [pixel].  spp: samples per pixel.  time [s] or noise (relative) end the render sooner.
     env: light from all around: an .hdr or .exr file, or a radiance, one number or three.
     materials: another reflection for materials of the scene, by name: {"body": facet.ggx(alpha=.2)}.
-    aov: further pictures by name; the result then is a dict of all, the picture itself as "".
+    aov: further pictures, of "albedo", "normal", "distance", "samples" and "noisy"; the result then is a dict of arrays by
+        name, the picture itself as "".
     progress: True prints a bar; a function is called with the share that is done.
     options: further arguments as on the command line; `facet render --help` lists them.
 

@@ -8,7 +8,7 @@
  * another, else in `copy`. */
 typedef struct NAME(block) {
     REAL *part[3];
-    REAL copy[3][ARRAY_BLOCK];
+    REAL copy[3][ARRAY_LARGEST_BLOCK];
 } NAME(block);
 
 /* Whether the next n elements can be used where they are. */
@@ -25,7 +25,8 @@ static void NAME(point)(NAME(block)*b, const array_cursor *c, size_t n, int part
 }
 
 /* A run of triples, x, y, z after one another, or of anything. */
-EACH_ISA static void NAME(gather)(const array_cursor *c, size_t n, int parts, REAL copy[3][ARRAY_BLOCK], size_t first)
+EACH_ISA static void NAME(gather)(const array_cursor *c, size_t n, int parts, REAL copy[3][ARRAY_LARGEST_BLOCK],
+                                  size_t first)
 {
     const ptrdiff_t stride = c->strides[c->n_axes - 1], size = (ptrdiff_t)sizeof(REAL);
     if (parts == 3 && c->component == size && stride == 3*size) {
@@ -43,7 +44,8 @@ EACH_ISA static void NAME(gather)(const array_cursor *c, size_t n, int parts, RE
     }
 }
 
-EACH_ISA static void NAME(scatter)(const array_cursor *c, size_t n, int parts, REAL copy[3][ARRAY_BLOCK], size_t first)
+EACH_ISA static void NAME(scatter)(const array_cursor *c, size_t n, int parts, REAL copy[3][ARRAY_LARGEST_BLOCK],
+                                   size_t first)
 {
     const ptrdiff_t stride = c->strides[c->n_axes - 1], size = (ptrdiff_t)sizeof(REAL);
     if (parts == 3 && c->component == size && stride == 3*size) {
@@ -74,6 +76,18 @@ static void NAME(read_block)(NAME(block)*b, array_cursor *c, size_t n, int parts
     }
 }
 
+/* Asks for the next n elements, at most one run of them, while something else is computed. */
+static void NAME(expect_block)(const array_cursor *c, size_t n)
+{
+    const size_t bytes = array_cursor_run(c, n)*sizeof(REAL), line = 64;
+    const ptrdiff_t stride = c->strides[c->n_axes - 1], size = (ptrdiff_t)sizeof(REAL);
+    const int are_rows = c->component == size && stride == 3*size;
+    for (int k = 0; k < 3 && (are_rows || stride == size); k++) {
+        const char *const part = c->at + (are_rows ? k*(ptrdiff_t)bytes : k*c->component);
+        for (size_t at = 0; at < bytes; at += line) __builtin_prefetch(part + at);
+    }
+}
+
 /* What was written to part[] since NAME(point) goes where it belongs. */
 static void NAME(write_block)(NAME(block)*b, array_cursor *c, size_t n, int parts)
 {
@@ -86,12 +100,6 @@ static void NAME(write_block)(NAME(block)*b, array_cursor *c, size_t n, int part
     }
 }
 
-/* Names the first element for which it is true that it is bad, of those at elements first, first + 1, ... */
-static void NAME(tell)(const NAME(block)*b, size_t i, size_t first, int argument, facet_python_fault *fault)
-{
-    *fault = (facet_python_fault){argument, first + i, {b->part[0][i], b->part[1][i], b->part[2][i]}};
-}
-
 static int NAME(is_unit)(REAL x, REAL y, REAL z)
 {
     const REAL excess = x*x + y*y + z*z - 1;
@@ -99,31 +107,43 @@ static int NAME(is_unit)(REAL x, REAL y, REAL z)
     return size <= (REAL)FACET_PYTHON_UNIT; /* false for NaN, too */
 }
 
-EACH_ISA static int NAME(check_units)(const NAME(block)*b, size_t n, size_t first, int argument,
-                                      facet_python_fault *fault)
-{
-    const REAL *const x = b->part[0], *const y = b->part[1], *const z = b->part[2];
-    int are_units = 1;
-#pragma omp simd reduction(& : are_units)
-    for (size_t i = 0; i < n; i++) are_units &= NAME(is_unit)(x[i], y[i], z[i]);
-    for (size_t i = 0; !are_units && i < n; i++)
-        if (!NAME(is_unit)(x[i], y[i], z[i])) return NAME(tell)(b, i, first, argument, fault), 0;
-    return 1;
-}
-
 static int NAME(is_in_cube)(REAL x, REAL y, REAL z)
 {
     return (x >= 0) & (x < 1) & (y >= 0) & (y < 1) & (z >= 0) & (z < 1);
 }
 
-EACH_ISA static int NAME(check_cube)(const NAME(block)*b, size_t n, size_t first, int argument,
-                                     facet_python_fault *fault)
+/* Whether all are unit vectors; of two arrays at once, since each start of a loop costs. */
+EACH_ISA static int NAME(are_units)(const NAME(block)*a, const NAME(block)*b, size_t n)
 {
-    const REAL *const x = b->part[0], *const y = b->part[1], *const z = b->part[2];
-    int are_inside = 1;
-#pragma omp simd reduction(& : are_inside)
-    for (size_t i = 0; i < n; i++) are_inside &= NAME(is_in_cube)(x[i], y[i], z[i]);
-    for (size_t i = 0; !are_inside && i < n; i++)
-        if (!NAME(is_in_cube)(x[i], y[i], z[i])) return NAME(tell)(b, i, first, argument, fault), 0;
+    const REAL *const x = a->part[0], *const y = a->part[1], *const z = a->part[2];
+    const REAL *const u = b->part[0], *const v = b->part[1], *const w = b->part[2];
+    int are_units = 1;
+#pragma omp simd reduction(& : are_units)
+    for (size_t i = 0; i < n; i++) are_units &= NAME(is_unit)(x[i], y[i], z[i]) & NAME(is_unit)(u[i], v[i], w[i]);
+    return are_units;
+}
+
+/* Whether those of `a` are unit vectors, and those of `b` in the unit cube. */
+EACH_ISA static int NAME(are_units_and_in_cube)(const NAME(block)*a, const NAME(block)*b, size_t n)
+{
+    const REAL *const x = a->part[0], *const y = a->part[1], *const z = a->part[2];
+    const REAL *const u = b->part[0], *const v = b->part[1], *const w = b->part[2];
+    int are_right = 1;
+#pragma omp simd reduction(& : are_right)
+    for (size_t i = 0; i < n; i++) are_right &= NAME(is_unit)(x[i], y[i], z[i]) & NAME(is_in_cube)(u[i], v[i], w[i]);
+    return are_right;
+}
+
+/* Names the first element that is not what is_right wants, of those at elements first, first + 1, ...; false if there
+ * is one. */
+static int NAME(tell)(const NAME(block)*b, int (*is_right)(REAL, REAL, REAL), size_t n, size_t first, int argument,
+                      facet_python_fault *fault)
+{
+    for (size_t i = 0; i < n; i++) {
+        const REAL x = b->part[0][i], y = b->part[1][i], z = b->part[2][i];
+        if (is_right(x, y, z)) continue;
+        *fault = (facet_python_fault){argument, first + i, {x, y, z}};
+        return 0;
+    }
     return 1;
 }

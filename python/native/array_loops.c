@@ -6,7 +6,7 @@
 
 /* Moving and checking numbers takes as long as evaluating ggx, unless by the widest registers; the loader picks. */
 #if defined(__x86_64__) && defined(__gnu_linux__)
-#define EACH_ISA __attribute__((target_clones("avx2", "default")))
+#define EACH_ISA __attribute__((target_clones("avx512f", "avx2", "default")))
 #else
 #define EACH_ISA
 #endif

@@ -77,10 +77,27 @@ static void NAME(terms_block)(const BSDF *bsdf, size_t n, const NAME(block)*m, N
 
 /* ---- The public loops -------------------------------------------------------------------------- */
 
-/* Runs over blocks: `some` elements from `first`. */
-#define EACH_BLOCK(n)                                                                                                  \
-    for (size_t first = 0, some = 0; some = (n)-first < ARRAY_BLOCK ? (n)-first : ARRAY_BLOCK, first < (n);            \
-         first += some)
+/* Runs over blocks of a size: `some` elements from `first`. */
+#define EACH_BLOCK(n, size)                                                                                            \
+    for (size_t first = 0, some = 0; some = (n)-first < (size) ? (n)-first : (size), first < (n); first += some)
+
+/* Inputs are checked when they are in the cache.  In float that is after they were used, which lets computing hide the
+ * time that memory takes: float kernels look nothing up, so that any numbers are safe.  Double ones do. */
+#define CHECKS_FIRST (!HAS_BATCHES)
+
+static int NAME(check_pair)(const NAME(block)*wi, const NAME(block)*wo, size_t n, size_t first,
+                            facet_python_fault *fault)
+{
+    return NAME(are_units)(wi, wo, n) ||
+           (NAME(tell)(wi, NAME(is_unit), n, first, 1, fault) && NAME(tell)(wo, NAME(is_unit), n, first, 2, fault));
+}
+
+static int NAME(check_draw)(const NAME(block)*wo, const NAME(block)*u, size_t n, size_t first,
+                            facet_python_fault *fault)
+{
+    return NAME(are_units_and_in_cube)(wo, u, n) ||
+           (NAME(tell)(wo, NAME(is_unit), n, first, 1, fault) && NAME(tell)(u, NAME(is_in_cube), n, first, 2, fault));
+}
 
 int PUBLIC(eval)(const BSDF *bsdf, size_t n, const facet_python_array *wi, const facet_python_array *wo,
                  const facet_python_array *f, const facet_python_array *pdf, facet_python_fault *fault)
@@ -88,14 +105,15 @@ int PUBLIC(eval)(const BSDF *bsdf, size_t n, const facet_python_array *wi, const
     array_cursor at_wi = array_cursor_start(wi), at_wo = array_cursor_start(wo), at_f = array_cursor_start(f),
                  at_pdf = array_cursor_start(pdf);
     NAME(block) i, o, value, density;
-    EACH_BLOCK(n)
+    EACH_BLOCK(n, ARRAY_BLOCK)
     {
         NAME(read_block)(&i, &at_wi, some, 3);
         NAME(read_block)(&o, &at_wo, some, 3);
-        if (!NAME(check_units)(&i, some, first, 1, fault) || !NAME(check_units)(&o, some, first, 2, fault)) return 0;
+        if (CHECKS_FIRST && !NAME(check_pair)(&i, &o, some, first, fault)) return 0;
         if (f->data) NAME(point)(&value, &at_f, some, 3);
         if (pdf->data) NAME(point)(&density, &at_pdf, some, 1);
         NAME(eval_block)(bsdf, some, &i, &o, f->data ? &value : NULL, pdf->data ? &density : NULL);
+        if (!CHECKS_FIRST && !NAME(check_pair)(&i, &o, some, first, fault)) return 0;
         if (f->data) NAME(write_block)(&value, &at_f, some, 3);
         if (pdf->data) NAME(write_block)(&density, &at_pdf, some, 1);
     }
@@ -110,17 +128,19 @@ int PUBLIC(sample)(const BSDF *bsdf, size_t n, const facet_python_array *wo, con
                  at_lobe = array_cursor_start(&samples->lobe), at_eta = array_cursor_start(&samples->eta);
     const int has_lobes = samples->lobe.data != NULL;
     NAME(block) o, x, i, density, weight, eta;
-    int32_t lobe[ARRAY_BLOCK] = {0};
-    EACH_BLOCK(n)
+    int32_t lobe[ARRAY_SAMPLE_BLOCK] = {0};
+    EACH_BLOCK(n, ARRAY_SAMPLE_BLOCK)
     {
         NAME(read_block)(&o, &at_wo, some, 3);
         NAME(read_block)(&x, &at_u, some, 3);
-        if (!NAME(check_units)(&o, some, first, 1, fault) || !NAME(check_cube)(&x, some, first, 2, fault)) return 0;
+        if (CHECKS_FIRST && !NAME(check_draw)(&o, &x, some, first, fault)) return 0;
+        NAME(expect_block)(&at_u, some); /* the kernels leave parts of u alone, which the check then waits for */
         NAME(point)(&i, &at_wi, some, 3);
         NAME(point)(&density, &at_pdf, some, 1);
         NAME(point)(&weight, &at_weight, some, 3);
         if (has_lobes) NAME(point)(&eta, &at_eta, some, 1);
         NAME(sample_block)(bsdf, some, &o, &x, &i, &density, &weight, &eta, has_lobes ? lobe : NULL);
+        if (!CHECKS_FIRST && !NAME(check_draw)(&o, &x, some, first, fault)) return 0;
         NAME(write_block)(&i, &at_wi, some, 3);
         NAME(write_block)(&density, &at_pdf, some, 1);
         NAME(write_block)(&weight, &at_weight, some, 3);
@@ -138,10 +158,10 @@ int PUBLIC(terms)(const BSDF *bsdf, size_t n, const facet_python_array *m, const
     array_cursor at_m = array_cursor_start(m), at[3];
     for (int k = 0; k < 3; k++) at[k] = array_cursor_start(outputs[k]);
     NAME(block) v, values[3];
-    EACH_BLOCK(n)
+    EACH_BLOCK(n, ARRAY_BLOCK)
     {
         NAME(read_block)(&v, &at_m, some, 3);
-        if (!NAME(check_units)(&v, some, first, 1, fault)) return 0;
+        if (!NAME(tell)(&v, NAME(is_unit), some, first, 1, fault)) return 0;
         for (int k = 0; k < 3; k++)
             if (outputs[k]->data) NAME(point)(&values[k], &at[k], some, 1);
         NAME(terms_block)
@@ -152,3 +172,4 @@ int PUBLIC(terms)(const BSDF *bsdf, size_t n, const facet_python_array *m, const
     return 1;
 }
 #undef EACH_BLOCK
+#undef CHECKS_FIRST

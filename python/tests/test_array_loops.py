@@ -108,7 +108,7 @@ def test_shapes_and_layouts_change_nothing(pair: tuple[np.ndarray, np.ndarray]) 
         wo[..., 0], wo[..., 1], wo[..., 2]))
 
 
-@given(st.data(), st.sampled_from([1, 511, 512, 513, 1500]))
+@given(st.data(), st.sampled_from([1, 127, 128, 129, 255, 256, 257, 500, 1500]))
 def test_blocks_meet_without_a_seam(data: st.DataObject, n: int) -> None:
     """More elements than a block of the loops, in shapes whose inner axes end inside blocks."""
     rng = np.random.default_rng(n)
@@ -122,6 +122,9 @@ def test_blocks_meet_without_a_seam(data: st.DataObject, n: int) -> None:
     assert got is out
     singles = np.concatenate([m.eval(wi[k:k + 1], wo[k:k + 1]) for k in range(n // inner)])
     np.testing.assert_array_equal(out, singles)
+    u = rng.random((n // inner, inner, 3), np.float32)
+    weights = np.concatenate([m.sample(wo[k:k + 1], u[k:k + 1]).weight for k in range(n // inner)])
+    np.testing.assert_array_equal(m.sample(gapped, u).weight, weights)
 
 
 def test_a_fault_is_named_where_it_is() -> None:
@@ -139,6 +142,25 @@ def test_a_fault_is_named_where_it_is() -> None:
         m.sample([0, 0, 1], [[0, 0, 0], [0, 1, 0]])
     with pytest.raises(ValueError, match=r"v is \(0.0, 0.0, 0.5\)"):
         facet.ggx().G1([0, 0, 0.5])
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("m", MATERIALS, ids=[m.spec for m in MATERIALS])
+def test_no_number_does_harm(m: facet.Material, dtype: type) -> None:
+    """Float loops look at directions after they have used them."""
+    up, half = np.array([0, 0, 1], dtype), np.full(3, 0.5, dtype)
+    wrong = np.tile(up, (70, 1))
+    numbers = (np.nan, np.inf, -np.inf, 3e38, -3e38, 1e-45, -2, 7)
+    for k, number in enumerate(numbers):
+        wrong[7 * k + 5, k % 3] = number
+    for bad in (wrong, wrong[:, ::-1], np.asfortranarray(wrong)):
+        for call in (lambda: m.eval(bad, up), lambda: m.pdf(up, bad), lambda: m.eval_pdf(bad, bad),
+                     lambda: m.sample(bad, half), lambda: m.sample_lobes(bad, half), lambda: m.G1(bad)):
+            with pytest.raises(ValueError, match="unit vectors"):
+                call()
+        for call in (lambda: m.sample(up, bad), lambda: m.sample_lobes(up, bad)):
+            with pytest.raises(ValueError, match="numbers in"):
+                call()
 
 
 @pytest.mark.parametrize("excess, is_unit", [(4e-5, True), (6e-5, False)])
@@ -187,6 +209,19 @@ def test_samples_are_drawn_into_arrays_that_are_there() -> None:
         assert not np.array_equal(got, old)
     with pytest.raises(ValueError, match="the result is float32 of shape"):
         m.sample(wo[:3], u[:3], out=first)
+
+
+def test_values_and_densities_fill_arrays_that_are_there() -> None:
+    m, rng = facet.ggx(alpha=0.2), np.random.default_rng(2)
+    wi, wo = unit_vectors(rng, 30, above=True), unit_vectors(rng, 30, above=True)
+    pair = m.eval_pdf(wo, wo)
+    assert m.eval_pdf(wi, wo, out=pair) is pair
+    for got, expected in zip(pair, m.eval_pdf(wi, wo)):
+        np.testing.assert_array_equal(got, expected)
+    with pytest.raises(ValueError, match="shares memory"):
+        m.eval_pdf(wi, wo, out=(pair[0], pair[0][:, 0]))
+    with pytest.raises(ValueError, match="the result is float32 of shape"):
+        m.eval_pdf(wi[:3], wo[:3], out=pair)
 
 
 def test_precision_is_that_of_the_arrays() -> None:

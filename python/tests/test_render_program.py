@@ -143,16 +143,25 @@ def test_layers_are_read_by_name(tmp_path: pathlib.Path) -> None:
     np.testing.assert_array_equal(layers["depth"], pixels["depth.Z"])
 
 
-def test_further_pictures_come_as_a_dict(tmp_path: pathlib.Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """With `aov`, all layers of the file that the program wrote; a stand-in writes one."""
-    source = tmp_path / "layers.exr"
-    pixels = np.ones((2, 2), np.float32)
-    with OpenEXR.File({"type": OpenEXR.scanlineimage},
-                      {n: OpenEXR.Channel(pixels * k) for k, n in enumerate(("R", "G", "B", "albedo.R", "albedo.G", "albedo.B"))}
-                      ) as file:
-        file.write(str(source))
-    monkeypatch.setenv("FACET", stand_in(tmp_path, f"assert '--aov=albedo' in sys.argv\nimport shutil\n"
-                                         f"shutil.copy({str(source)!r}, sys.argv[sys.argv.index('-o') + 1])"))
-    layers = facet.render(SCENE, aov=["albedo"])
-    np.testing.assert_array_equal(layers["albedo"][0, 0], [3, 4, 5])
-    assert layers[""].shape == (2, 2, 3)
+def test_further_pictures_come_as_a_dict() -> None:
+    """With `aov`, all layers by name; the scene is a sphere of radius 1 that fills the middle of the picture."""
+    layers = facet.render(SCENE, size=(24, 24), spp=16, env=1, strategy="implicit",
+                          aov=["albedo", "normal", "distance", "samples"])
+    assert set(layers) == {"", "albedo", "normal", "distance", "samples"}
+    assert layers[""].shape == layers["albedo"].shape == layers["normal"].shape == (24, 24, 3)
+    assert layers["distance"].shape == layers["samples"].shape == (24, 24)
+    np.testing.assert_array_equal(layers["samples"], 16)
+    np.testing.assert_allclose(layers["albedo"][10:14, 10:14], 0.5, rtol=1e-3)  # halves of 11 bits
+    normals = layers["normal"][10:14, 10:14]
+    np.testing.assert_allclose(np.linalg.norm(normals.mean(axis=(0, 1))), 1, atol=0.05)  # they all point to the camera
+    distance = layers["distance"]
+    seen = np.isfinite(distance)
+    assert distance[10:14, 10:14].max() < distance[seen].max() < distance[10:14, 10:14].min() + 1  # less than the radius behind
+    assert not seen[0, 0] and not layers["normal"][0, 0].any() and (layers["albedo"][0, 0] == 1).all()  # the sky
+    alone = facet.render(SCENE, size=(24, 24), spp=16, env=1, strategy="implicit")
+    np.testing.assert_array_equal(layers[""], alone)
+
+
+def test_a_layer_that_there_is_not_is_an_error() -> None:
+    with pytest.raises(ValueError, match="--aov"):
+        facet.render(SCENE, size=(8, 8), spp=1, aov=["warmth"])

@@ -12,33 +12,7 @@
 #include <cmocka.h>
 #include <jansson.h>
 
-#include "tests/run_program.h"
-
-static char *folder;
-
-#define RUN(...) run_program(folder, NULL, NULL, (const char *const[]){FACET_PROGRAM, __VA_ARGS__, NULL})
-
-static int setup(void **state)
-{
-    (void)state;
-    folder = make_folder();
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    remove_folder(folder);
-    return 0;
-}
-
-/* Fails the test with all that the program said. */
-static void expect(const program_run *run, int status, const char *in_out, const char *in_err)
-{
-    if (run->status != status || !strstr(run->out, in_out) || !strstr(run->err, in_err))
-        fail_msg("status %d (expected %d)\nstdout, expected `%s`:\n%s\nstderr, expected `%s`:\n%s", run->status, status,
-                 in_out, run->out, in_err, run->err);
-}
+#include "tests/program_folder.h"
 
 /* ---- Help -------------------------------------------------------------------------------------- */
 
@@ -46,7 +20,7 @@ static void no_arguments_print_the_usage_and_fail(void **state)
 {
     (void)state;
     program_run run = run_program(folder, NULL, NULL, (const char *const[]){FACET_PROGRAM, NULL});
-    expect(&run, 2, "", "Usage: facet COMMAND");
+    program_run_check(&run, 2, "", "Usage: facet COMMAND");
     assert_int_equal(strlen(run.out), 0);
     program_run_free(&run);
 }
@@ -78,12 +52,12 @@ static void help_of_each_command_is_complete(void **state)
     (void)state;
     for (size_t i = 0; i < N_HELPS; i++) {
         program_run run = RUN(helps[i].name, "--help"), again = RUN("help", helps[i].name);
-        expect(&run, 0, "Examples:", "");
-        expect(&run, 0, "Exit status:", "");
-        expect(&run, 0, "Usage: facet ", "");
+        program_run_check(&run, 0, "Examples:", "");
+        program_run_check(&run, 0, "Exit status:", "");
+        program_run_check(&run, 0, "Usage: facet ", "");
         assert_string_equal(run.out, again.out);
         char *options = strdup(helps[i].options);
-        for (char *name = strtok(options, " "); name; name = strtok(NULL, " ")) expect(&run, 0, name, "");
+        for (char *name = strtok(options, " "); name; name = strtok(NULL, " ")) program_run_check(&run, 0, name, "");
         free(options);
         program_run_free(&run);
         program_run_free(&again);
@@ -126,7 +100,7 @@ static void materials_in_help_are_valid(void **state)
             p += length + (p[length] != 0);
             if (!strchr(spec, '=') || strchr(spec, '\\')) continue; /* SPEC, or the text of a CSV file */
             program_run use = RUN("albedo", spec, "--cos", "1");
-            expect(&use, 0, "", "");
+            program_run_check(&use, 0, "", "");
             program_run_free(&use);
             n++;
         }
@@ -139,13 +113,13 @@ static void overview_lists_every_command_and_status(void **state)
 {
     (void)state;
     program_run run = RUN("--help"), again = RUN("help");
-    for (size_t i = 0; i < N_HELPS; i++) expect(&run, 0, helps[i].name, "");
-    expect(&run, 0, "130  interrupted", "");
+    for (size_t i = 0; i < N_HELPS; i++) program_run_check(&run, 0, helps[i].name, "");
+    program_run_check(&run, 0, "130  interrupted", "");
     assert_string_equal(run.out, again.out);
     program_run_free(&run);
     program_run_free(&again);
     run = RUN("--version");
-    expect(&run, 0, "facet 0.", "");
+    program_run_check(&run, 0, "facet 0.", "");
     program_run_free(&run);
 }
 
@@ -226,7 +200,7 @@ static void mistakes_give_one_kind_line_and_their_status(void **state)
         const char *argv[12] = {FACET_PROGRAM};
         for (size_t k = 0; k < 10; k++) argv[k + 1] = mistakes[i].arguments[k];
         program_run run = run_program(folder, NULL, NULL, argv);
-        expect(&run, mistakes[i].status, "", mistakes[i].text);
+        program_run_check(&run, mistakes[i].status, "", mistakes[i].text);
         const char *line = strstr(run.err, "facet: error: ");
         if (!line || strchr(line, '\n') != line + strlen(line) - 1 || (line != run.err && line[-1] != '\n'))
             fail_msg("not one line of error at the end: %s", run.err);
@@ -239,7 +213,7 @@ static void messages_stay_on_one_line_whatever_the_file_is_called(void **state)
 {
     (void)state;
     program_run run = RUN("info", "two\nlines\x1b[2J.png");
-    expect(&run, 3, "", "facet: error: two?lines?[2J.png: ");
+    program_run_check(&run, 3, "", "facet: error: two?lines?[2J.png: ");
     program_run_free(&run);
 }
 
@@ -247,7 +221,7 @@ static void options_end_at_two_dashes(void **state)
 {
     (void)state;
     program_run run = RUN("info", "--", "--json");
-    expect(&run, 3, "", "facet: error: --json: ");
+    program_run_check(&run, 3, "", "facet: error: --json: ");
     program_run_free(&run);
 }
 
@@ -279,10 +253,10 @@ static void materials_json_holds_the_table(void **state)
     json_decref(models);
     program_run_free(&run);
     run = RUN("materials", "ggx");
-    expect(&run, 0, "alpha_x", "");
+    program_run_check(&run, 0, "alpha_x", "");
     program_run_free(&run);
     run = RUN("scenes");
-    expect(&run, 0, "demo ", "");
+    program_run_check(&run, 0, "demo ", "");
     program_run_free(&run);
 }
 
@@ -298,7 +272,7 @@ static void a_full_disk_behind_stdout_is_status_4(void **state)
     for (size_t i = 0; i < sizeof commands/sizeof *commands; i++) {
         write_text(in_folder(folder, "stdout"), "");
         program_run run = run_program(folder, NULL, "/dev/full", commands[i]);
-        expect(&run, 4, "", "facet: error: stdout: No space left on device");
+        program_run_check(&run, 4, "", "facet: error: stdout: No space left on device");
         program_run_free(&run);
     }
 }
@@ -309,7 +283,7 @@ static void a_reader_that_leaves_is_no_error_message(void **state)
     char command[1024];
     snprintf(command, sizeof command, "'%s' sample lambert --wo 0,0,1 -n 1000000 | head -n 2", FACET_PROGRAM);
     program_run run = run_program(folder, NULL, NULL, (const char *const[]){"/bin/sh", "-c", command, NULL});
-    expect(&run, 0, "u1,u2,u3", "");
+    program_run_check(&run, 0, "u1,u2,u3", "");
     assert_int_equal(strlen(run.err), 0);
     program_run_free(&run);
 }
@@ -329,5 +303,5 @@ int main(void)
         cmocka_unit_test(a_full_disk_behind_stdout_is_status_4),
         cmocka_unit_test(a_reader_that_leaves_is_no_error_message),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -12,27 +12,9 @@
 #include <cmocka.h>
 #include <jansson.h>
 
-#include "tests/run_program.h"
-#include "tests/small_scene.h"
+#include "tests/program_folder.h"
 
-static char *folder;
-
-#define RUN(...) run_program(folder, NULL, NULL, (const char *const[]){FACET_PROGRAM, "render", __VA_ARGS__, NULL})
-
-static int setup(void **state)
-{
-    (void)state;
-    folder = make_folder();
-    write_text(in_folder(folder, "scene.gltf"), small_scene);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    remove_folder(folder);
-    return 0;
-}
+#define RENDER(...) run_program(folder, NULL, NULL, (const char *const[]){FACET_PROGRAM, "render", __VA_ARGS__, NULL})
 
 static void expect_status(program_run run, int status)
 {
@@ -85,8 +67,8 @@ static long long whole(const json_t *events, size_t i, const char *key)
 static void a_render_tells_its_start_progress_checkpoints_and_end(void **state)
 {
     (void)state;
-    expect_status(RUN("scene.gltf", "--size", "64x32", "--time", "1.2", "-o", "a.exr", "--events", "a.jsonl",
-                      "--checkpoint", "a.ckpt"),
+    expect_status(RENDER("scene.gltf", "--size", "64x32", "--time", "1.2", "-o", "a.exr", "--events", "a.jsonl",
+                         "--checkpoint", "a.ckpt"),
                   0);
     json_t *events = read_events("a.jsonl");
     const size_t last = json_array_size(events) - 1;
@@ -102,8 +84,8 @@ static void a_render_tells_its_start_progress_checkpoints_and_end(void **state)
     assert_true(spp >= 1);
     json_decref(events);
     /* A run that goes on appends. */
-    expect_status(RUN("scene.gltf", "--size", "64x32", "--time", "0.01", "-o", "a.exr", "--events", "a.jsonl",
-                      "--resume", "a.ckpt"),
+    expect_status(RENDER("scene.gltf", "--size", "64x32", "--time", "0.01", "-o", "a.exr", "--events", "a.jsonl",
+                         "--resume", "a.ckpt"),
                   0);
     events = read_events("a.jsonl");
     assert_int_equal(count(events, "start"), 2);
@@ -114,29 +96,30 @@ static void a_render_tells_its_start_progress_checkpoints_and_end(void **state)
 static void warnings_and_failures_are_events(void **state)
 {
     (void)state;
-    expect_status(RUN("scene.gltf", "--size", "8x8", "--spp", "1", "-o", "b.png", "--half", "--events", "b.jsonl"), 0);
+    expect_status(RENDER("scene.gltf", "--size", "8x8", "--spp", "1", "-o", "b.png", "--half", "--events", "b.jsonl"),
+                  0);
     json_t *events = read_events("b.jsonl");
     assert_int_equal(count(events, "warning"), 1);
     json_decref(events);
-    expect_status(RUN("none.gltf", "-o", "c.png", "--events", "c.jsonl"), 3);
+    expect_status(RENDER("none.gltf", "-o", "c.png", "--events", "c.jsonl"), 3);
     events = read_events("c.jsonl");
     assert_int_equal(json_array_size(events), 1);
     assert_int_equal(whole(events, 0, "status"), 3);
     json_decref(events);
-    expect_status(RUN("scene.gltf", "-o", "c.png", "--events", "none/c.jsonl"), 4);
+    expect_status(RENDER("scene.gltf", "-o", "c.png", "--events", "none/c.jsonl"), 4);
 }
 
 static void a_dash_is_stderr(void **state)
 {
     (void)state;
-    program_run run = RUN("scene.gltf", "--size", "8x8", "--spp", "1", "-o", "d.png", "--quiet", "--events", "-");
+    program_run run = RENDER("scene.gltf", "--size", "8x8", "--spp", "1", "-o", "d.png", "--quiet", "--events", "-");
     assert_int_equal(run.status, 0);
     json_t *events = parse_lines(run.err);
     assert_int_equal(count(events, "start") + count(events, "done"), 2);
     json_decref(events);
     program_run_free(&run);
     /* A watcher that is gone, or a disk that is full, costs no picture. */
-    expect_status(RUN("scene.gltf", "--size", "8x8", "--spp", "1", "-o", "e.png", "--events", "/dev/full"), 0);
+    expect_status(RENDER("scene.gltf", "--size", "8x8", "--spp", "1", "-o", "e.png", "--events", "/dev/full"), 0);
 }
 
 int main(void)
@@ -146,5 +129,5 @@ int main(void)
         cmocka_unit_test(warnings_and_failures_are_events),
         cmocka_unit_test(a_dash_is_stderr),
     };
-    return cmocka_run_group_tests_name("cli_events", tests, setup, teardown);
+    return cmocka_run_group_tests_name("cli_events", tests, make_scene_folder, remove_test_folder);
 }

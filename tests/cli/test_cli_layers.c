@@ -12,36 +12,15 @@
 #include <cmocka.h>
 #include <jansson.h>
 
-#include "tests/run_program.h"
-#include "tests/small_scene.h"
+#include "tests/program_folder.h"
 
-static char *folder;
-
-#define RUN(...) run_program(folder, NULL, NULL, (const char *const[]){FACET_PROGRAM, __VA_ARGS__, NULL})
 #define RENDER(...) RUN("render", "scene.gltf", "--size", "48x24", __VA_ARGS__)
 
 static int setup(void **state)
 {
-    (void)state;
     unsetenv("FACET_OIDN");
-    folder = make_folder();
-    write_text(in_folder(folder, "scene.gltf"), small_scene);
+    make_scene_folder(state);
     return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    remove_folder(folder);
-    return 0;
-}
-
-static void expect(program_run run, int status, const char *in_err)
-{
-    if (run.status != status || !strstr(run.err, in_err))
-        fail_msg("status %d (expected %d)\nstdout:\n%s\nstderr, expected `%s`:\n%s", run.status, status, run.out,
-                 in_err, run.err);
-    program_run_free(&run);
 }
 
 /* True if the file holds the bytes of the text. */
@@ -60,10 +39,11 @@ static void layers_stand_beside_the_picture(void **state)
 {
     (void)state;
     static const char *const channels[] = {"albedo.R", "albedo.B", "normal.X", "normal.Z", "distance.Z", "samples.Y"};
-    expect(RENDER("--spp", "3", "--quiet", "-o", "plain.exr"), 0, "");
-    expect(RENDER("--spp", "3", "--quiet", "--aov", "normal,albedo,samples,distance", "-o", "all.exr", "-o", "all.png"),
-           0, "");
-    expect(RUN("compare", "plain.exr", "all.exr", "--metric", "mse", "--max", "0"), 0, "");
+    expect_run(RENDER("--spp", "3", "--quiet", "-o", "plain.exr"), 0, "");
+    expect_run(
+        RENDER("--spp", "3", "--quiet", "--aov", "normal,albedo,samples,distance", "-o", "all.exr", "-o", "all.png"), 0,
+        "");
+    expect_run(RUN("compare", "plain.exr", "all.exr", "--metric", "mse", "--max", "0"), 0, "");
     for (size_t i = 0; i < sizeof channels/sizeof *channels; i++) {
         assert_true(holds("all.exr", channels[i]));
         assert_false(holds("plain.exr", channels[i]));
@@ -74,56 +54,59 @@ static void layers_stand_beside_the_picture(void **state)
 static void what_layers_need_is_said_at_once(void **state)
 {
     (void)state;
-    expect(RENDER("--aov", "albedo,depth", "-o", "x.exr"), 2,
-           "facet: error: --aov: `depth` is none of albedo, normal,");
-    expect(RENDER("--aov", "noisy", "-o", "x.exr"), 2,
-           "--aov: noisy is the picture before --denoise, which is not given");
-    expect(RENDER("--oidn", FACET_FAKE_OIDN, "-o", "x.exr"), 2,
-           "--oidn: is the library of --denoise, which is not given");
-    expect(RENDER("--denoise", "--oidn", "/nowhere/x.so", "-o", "x.exr"), 4,
-           "facet: error: /nowhere/x.so: cannot be loaded: cannot open shared object file: No such file or directory; "
-           "give --oidn");
-    expect(RENDER("--spp", "1", "--aov", "albedo", "-o", "x.png"), 0, "--aov has no effect: no output is an .exr file");
+    expect_run(RENDER("--aov", "albedo,depth", "-o", "x.exr"), 2,
+               "facet: error: --aov: `depth` is none of albedo, normal,");
+    expect_run(RENDER("--aov", "noisy", "-o", "x.exr"), 2,
+               "--aov: noisy is the picture before --denoise, which is not given");
+    expect_run(RENDER("--oidn", FACET_FAKE_OIDN, "-o", "x.exr"), 2,
+               "--oidn: is the library of --denoise, which is not given");
+    expect_run(
+        RENDER("--denoise", "--oidn", "/nowhere/x.so", "-o", "x.exr"), 4,
+        "facet: error: /nowhere/x.so: cannot be loaded: cannot open shared object file: No such file or directory; "
+        "give --oidn");
+    expect_run(RENDER("--spp", "1", "--aov", "albedo", "-o", "x.png"), 0,
+               "--aov has no effect: no output is an .exr file");
     assert_true(access(in_folder(folder, "x.exr"), F_OK) != 0);
 }
 
 static void the_denoised_picture_takes_the_place_of_the_noisy_one(void **state)
 {
     (void)state;
-    expect(RENDER("--spp", "3", "--quiet", "-o", "noisy.exr"), 0, "");
-    expect(RENDER("--spp", "3", "--quiet", "--denoise", "--oidn", FACET_FAKE_OIDN, "--aov", "noisy", "-o", "clean.exr"),
-           0, "");
-    expect(RUN("compare", "noisy.exr", "clean.exr", "--metric", "mse", "--max", "0"), 1, "");
+    expect_run(RENDER("--spp", "3", "--quiet", "-o", "noisy.exr"), 0, "");
+    expect_run(
+        RENDER("--spp", "3", "--quiet", "--denoise", "--oidn", FACET_FAKE_OIDN, "--aov", "noisy", "-o", "clean.exr"), 0,
+        "");
+    expect_run(RUN("compare", "noisy.exr", "clean.exr", "--metric", "mse", "--max", "0"), 1, "");
     assert_true(holds("clean.exr", "noisy.G") && holds("clean.exr", "facet:denoiser"));
     assert_true(holds("clean.exr", "Open Image Denoise 2.3.99") && !holds("noisy.exr", "facet:denoiser"));
     setenv("FACET_OIDN", FACET_FAKE_OIDN, 1);
-    expect(RENDER("--spp", "3", "--quiet", "--denoise", "-o", "again.exr"), 0, "");
+    expect_run(RENDER("--spp", "3", "--quiet", "--denoise", "-o", "again.exr"), 0, "");
     unsetenv("FACET_OIDN");
-    expect(RUN("compare", "again.exr", "clean.exr", "--metric", "mse", "--max", "0"), 0, "");
+    expect_run(RUN("compare", "again.exr", "clean.exr", "--metric", "mse", "--max", "0"), 0, "");
 }
 
 static void shards_keep_what_layers_need(void **state)
 {
     (void)state;
-    expect(RENDER("--spp", "4", "--quiet", "--aov", "normal", "-o", "whole.exr"), 0, "");
-    expect(RENDER("--spp", "4", "--quiet", "--denoise", "--oidn", FACET_FAKE_OIDN, "-o", "clean.exr"), 0, "");
-    expect(RENDER("--spp", "4", "--quiet", "--aov", "normal", "--shard", "1/2", "--checkpoint", "1.ckpt"), 0, "");
-    expect(RENDER("--spp", "4", "--quiet", "--aov", "albedo", "--shard", "2/2", "--checkpoint", "2.ckpt"), 0, "");
-    expect(RENDER("--spp", "4", "--quiet", "--shard", "2/2", "--checkpoint", "bare.ckpt"), 0, "");
-    expect(RUN("merge", "2.ckpt", "1.ckpt", "--aov", "normal,samples", "-o", "merged.exr"), 0, "");
-    expect(RUN("compare", "whole.exr", "merged.exr", "--metric", "mse", "--max", "0"), 0, "");
+    expect_run(RENDER("--spp", "4", "--quiet", "--aov", "normal", "-o", "whole.exr"), 0, "");
+    expect_run(RENDER("--spp", "4", "--quiet", "--denoise", "--oidn", FACET_FAKE_OIDN, "-o", "clean.exr"), 0, "");
+    expect_run(RENDER("--spp", "4", "--quiet", "--aov", "normal", "--shard", "1/2", "--checkpoint", "1.ckpt"), 0, "");
+    expect_run(RENDER("--spp", "4", "--quiet", "--aov", "albedo", "--shard", "2/2", "--checkpoint", "2.ckpt"), 0, "");
+    expect_run(RENDER("--spp", "4", "--quiet", "--shard", "2/2", "--checkpoint", "bare.ckpt"), 0, "");
+    expect_run(RUN("merge", "2.ckpt", "1.ckpt", "--aov", "normal,samples", "-o", "merged.exr"), 0, "");
+    expect_run(RUN("compare", "whole.exr", "merged.exr", "--metric", "mse", "--max", "0"), 0, "");
     assert_true(holds("merged.exr", "normal.Y") && holds("merged.exr", "samples.Y"));
-    expect(RUN("merge", "2.ckpt", "1.ckpt", "--denoise", "--oidn", FACET_FAKE_OIDN, "-o", "merged.exr"), 0, "");
-    expect(RUN("compare", "clean.exr", "merged.exr", "--metric", "mse", "--max", "0"), 0, "");
-    expect(RUN("merge", "1.ckpt", "bare.ckpt", "-o", "x.exr"), 3,
-           "was made with features (--aov, --denoise) not kept; 1.ckpt has features (--aov, --denoise) kept");
-    expect(RENDER("--spp", "4", "--quiet", "--checkpoint", "alone.ckpt", "-o", "x.exr"), 0, "");
-    expect(RUN("merge", "alone.ckpt", "--aov", "albedo", "-o", "x.exr"), 3,
-           "alone.ckpt: keeps no features for --aov and --denoise; render it with one of them");
-    expect(RENDER("--spp", "4", "--aov", "albedo", "--resume", "alone.ckpt", "-o", "x.exr"), 3,
-           "was made with features (--aov, --denoise) not kept");
+    expect_run(RUN("merge", "2.ckpt", "1.ckpt", "--denoise", "--oidn", FACET_FAKE_OIDN, "-o", "merged.exr"), 0, "");
+    expect_run(RUN("compare", "clean.exr", "merged.exr", "--metric", "mse", "--max", "0"), 0, "");
+    expect_run(RUN("merge", "1.ckpt", "bare.ckpt", "-o", "x.exr"), 3,
+               "was made with features (--aov, --denoise) not kept; 1.ckpt has features (--aov, --denoise) kept");
+    expect_run(RENDER("--spp", "4", "--quiet", "--checkpoint", "alone.ckpt", "-o", "x.exr"), 0, "");
+    expect_run(RUN("merge", "alone.ckpt", "--aov", "albedo", "-o", "x.exr"), 3,
+               "alone.ckpt: keeps no features for --aov and --denoise; render it with one of them");
+    expect_run(RENDER("--spp", "4", "--aov", "albedo", "--resume", "alone.ckpt", "-o", "x.exr"), 3,
+               "was made with features (--aov, --denoise) not kept");
     /* What a checkpoint keeps is kept on, asked for or not. */
-    expect(RENDER("--spp", "4", "--resume", "1.ckpt", "--shard", "1/2", "--checkpoint", "1.ckpt"), 0, "");
+    expect_run(RENDER("--spp", "4", "--resume", "1.ckpt", "--shard", "1/2", "--checkpoint", "1.ckpt"), 0, "");
 }
 
 static void a_noise_target_ends_tiles_and_the_render(void **state)
@@ -138,7 +121,7 @@ static void a_noise_target_ends_tiles_and_the_render(void **state)
     assert_true(noise > 0 && noise <= .05 && mean >= 16 && mean <= spp);
     assert_true(json_is_false(json_object_get(root, "complete")));
     json_decref(root);
-    expect(run, 0, "");
+    expect_run(run, 0, "");
 }
 
 int main(void)
@@ -150,5 +133,5 @@ int main(void)
         cmocka_unit_test(shards_keep_what_layers_need),
         cmocka_unit_test(a_noise_target_ends_tiles_and_the_render),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, setup, remove_test_folder);
 }

@@ -17,35 +17,7 @@
 #include <cmocka.h>
 #include <jansson.h>
 
-#include "tests/run_program.h"
-#include "tests/small_scene.h"
-
-static char *folder;
-
-#define RUN(...) run_program(folder, NULL, NULL, (const char *const[]){FACET_PROGRAM, __VA_ARGS__, NULL})
-
-static int setup(void **state)
-{
-    (void)state;
-    folder = make_folder();
-    write_text(in_folder(folder, "scene.gltf"), small_scene);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    remove_folder(folder);
-    return 0;
-}
-
-/* Fails the test with all that the program said. */
-static void expect(const program_run *run, int status, const char *in_err)
-{
-    if (run->status != status || !strstr(run->err, in_err))
-        fail_msg("status %d (expected %d)\nstdout:\n%s\nstderr, expected `%s`:\n%s", run->status, status, run->out,
-                 in_err, run->err);
-}
+#include "tests/program_folder.h"
 
 static json_t *parse(const program_run *run)
 {
@@ -86,8 +58,7 @@ static void make_picture(const char *name, const char *const *arguments)
                             "32x16",       "--spp",  "4",          "-o",      name};
     for (size_t i = 0; arguments[i]; i++) argv[10 + i] = arguments[i];
     program_run run = run_program(folder, NULL, NULL, argv);
-    expect(&run, 0, "");
-    program_run_free(&run);
+    expect_run(run, 0, "");
 }
 #define MAKE(name, ...) make_picture(name, (const char *const[]){__VA_ARGS__, NULL})
 
@@ -98,7 +69,7 @@ static void pictures_carry_their_provenance(void **state)
     (void)state;
     program_run run = RUN("render", "scene.gltf", "-o", "a.exr", "--output=b.png", "--size", "20x10", "-s3", "--seed",
                           "77", "--json", "--quiet", "--strategy", "mis", "--crop", "2,1,16,8");
-    expect(&run, 0, "");
+    program_run_check(&run, 0, "", "");
     assert_int_equal(strlen(run.err), 0); /* --quiet */
     json_t *root = parse(&run);
     assert_int_equal(whole(root, "width"), 16);
@@ -127,7 +98,7 @@ static void pictures_carry_their_provenance(void **state)
     static const char *const files[] = {"a.exr", "b.png"};
     for (size_t i = 0; i < 2; i++) {
         run = RUN("info", "--json", files[i]);
-        expect(&run, 0, "");
+        program_run_check(&run, 0, "", "");
         root = parse(&run);
         assert_int_equal(whole(root, "width"), 16);
         assert_int_equal(json_array_size(json_object_get(root, "channels")), 3);
@@ -140,13 +111,12 @@ static void names_and_sizes_have_sensible_defaults(void **state)
 {
     (void)state;
     program_run run = RUN("render", "--size", "16x9", "--spp", "1");
-    expect(&run, 0, "wrote facet.png: 16x9, 1 spp");
-    program_run_free(&run);
+    expect_run(run, 0, "wrote facet.png: 16x9, 1 spp");
     run = RUN("render", in_folder(folder, "scene.gltf"), "--spp", "1", "--depth", "0");
-    expect(&run, 0, "wrote scene.png: 1080x540, 1 spp"); /* the camera's aspect is 2 */
+    program_run_check(&run, 0, "", "wrote scene.png: 1080x540, 1 spp"); /* the camera's aspect is 2 */
     program_run_free(&run);
     run = RUN("render", "scene.gltf", "--spp", "1", "--depth", "0", "--camera", "far");
-    expect(&run, 0, "wrote scene.png: 960x540, 1 spp"); /* that of the other is open */
+    program_run_check(&run, 0, "", "wrote scene.png: 960x540, 1 spp"); /* that of the other is open */
     program_run_free(&run);
 }
 
@@ -159,8 +129,7 @@ static void a_file_that_cannot_be_written_leaves_the_old_one(void **state)
     snprintf(command, sizeof command,
              "ulimit -f 1; exec '%s' render scene.gltf --size 64x64 --spp 1 --quiet -o old.exr", FACET_PROGRAM);
     program_run run = run_program(folder, NULL, NULL, (const char *const[]){"/bin/sh", "-c", command, NULL});
-    expect(&run, 4, "facet: error: old.exr:");
-    program_run_free(&run);
+    expect_run(run, 4, "facet: error: old.exr:");
     char *bytes = read_bytes(in_folder(folder, "old.exr"), NULL);
     assert_string_equal(bytes, "the old content");
     free(bytes);
@@ -176,13 +145,11 @@ static void an_output_must_be_a_file(void **state)
 {
     (void)state;
     program_run run = RUN("render", "scene.gltf", "-o", "/dev/null/x.png");
-    expect(&run, 4, "facet: error: /dev/null/x.png: ");
-    program_run_free(&run);
+    expect_run(run, 4, "facet: error: /dev/null/x.png: ");
     run = run_program(folder, NULL, NULL, (const char *const[]){"/bin/mkdir", "-p", "folder.png", NULL});
     program_run_free(&run);
     run = RUN("render", "scene.gltf", "-o", "folder.png");
-    expect(&run, 4, "folder.png: exists and is not a regular file");
-    program_run_free(&run);
+    expect_run(run, 4, "folder.png: exists and is not a regular file");
 }
 
 /* ---- What is rendered -------------------------------------------------------------------------- */
@@ -194,14 +161,13 @@ static void threads_do_not_change_a_pixel_and_seeds_do(void **state)
     MAKE("three.exr", "-t", "3");
     MAKE("other.exr", "--seed", "1");
     program_run run = RUN("compare", "one.exr", "three.exr", "--metric", "mse", "--max", "0", "--json");
-    expect(&run, 0, "");
+    program_run_check(&run, 0, "", "");
     json_t *root = parse(&run);
     assert_int_equal(whole(root, "different_pixels"), 0);
     json_decref(root);
     program_run_free(&run);
     run = RUN("compare", "one.exr", "other.exr", "--metric", "mse", "--max", "0");
-    expect(&run, 1, "");
-    program_run_free(&run);
+    expect_run(run, 1, "");
 }
 
 static void options_change_the_picture_as_they_say(void **state)
@@ -245,15 +211,14 @@ static void unknown_names_are_answered_with_the_known_ones(void **state)
 {
     (void)state;
     program_run run = RUN("render", "scene.gltf", "--camera", "frnt", "-o", "x.png");
-    expect(&run, 2,
-           "facet: error: --camera: the scene has no camera `frnt`; did you mean `front`? it has `front`, `far`\n");
+    program_run_check(
+        &run, 2, "",
+        "facet: error: --camera: the scene has no camera `frnt`; did you mean `front`? it has `front`, `far`\n");
     program_run_free(&run);
     run = RUN("render", "scene.gltf", "--material", "bal=ggx", "-o", "x.png");
-    expect(&run, 2, "no material `bal`; did you mean `ball`? it has `ball`, `lamp`");
-    program_run_free(&run);
+    expect_run(run, 2, "no material `bal`; did you mean `ball`? it has `ball`, `lamp`");
     run = RUN("render", "scene.gltf", "--material", "ball=ggx alpha=9e9", "-o", "x.png");
-    expect(&run, 2, "facet: error: --material ball:alpha: ");
-    program_run_free(&run);
+    expect_run(run, 2, "facet: error: --material ball:alpha: ");
 }
 
 static void dark_scenes_without_cameras_are_shown_with_notes(void **state)
@@ -263,9 +228,8 @@ static void dark_scenes_without_cameras_are_shown_with_notes(void **state)
                "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"extensions\":"
                "{\"FACET_shape\":{\"sphere\":{\"radius\":1}}}}],\"extensionsUsed\":[\"FACET_shape\"]}");
     program_run run = RUN("render", "bare.gltf", "--size", "8x8", "--spp", "16");
-    expect(&run, 0, "facet: note: the scene has no camera;");
-    expect(&run, 0, "facet: note: the scene has no light;");
-    program_run_free(&run);
+    program_run_check(&run, 0, "", "facet: note: the scene has no camera;");
+    expect_run(run, 0, "facet: note: the scene has no light;");
     run = RUN("info", "bare.png", "--json");
     json_t *root = parse(&run);
     const json_t *red = json_array_get(json_object_get(root, "channels"), 0);
@@ -279,7 +243,7 @@ static void damaged_scenes_are_status_3_and_leave_no_file(void **state)
     (void)state;
     write_text(in_folder(folder, "broken.gltf"), "{\"asset\": {\"version\": \"2.0\"}, ");
     program_run run = RUN("render", "broken.gltf");
-    expect(&run, 3, "facet: error: broken.gltf:");
+    program_run_check(&run, 3, "", "facet: error: broken.gltf:");
     assert_null(read_bytes(in_folder(folder, "broken.png"), NULL));
     program_run_free(&run);
     run = RUN("info", "scene.gltf", "--json");
@@ -296,7 +260,7 @@ static void a_time_limit_ends_the_render(void **state)
 {
     (void)state;
     program_run run = RUN("render", "scene.gltf", "--time", "0.1", "--size", "64x32", "-o", "t.exr", "--json");
-    expect(&run, 0, "");
+    program_run_check(&run, 0, "", "");
     json_t *root = parse(&run);
     assert_true(json_is_false(json_object_get(root, "complete")));
     assert_true(whole(root, "spp") >= 1 && whole(root, "spp") < 65536);
@@ -339,15 +303,14 @@ static void interrupted_renders_save_what_they_have(void **state)
         program_run run = {.status = wait_for_program(pid)};
         run.out = read_bytes(in_folder(folder, "stdout"), NULL);
         run.err = read_bytes(in_folder(folder, "stderr"), NULL);
-        expect(&run, 130, "facet: note: interrupted after ");
+        program_run_check(&run, 130, "", "facet: note: interrupted after ");
         json_t *root = parse(&run);
         assert_true(json_is_true(json_object_get(root, "interrupted")));
         assert_true(whole(root, "spp") >= 1);
         json_decref(root);
         program_run_free(&run);
         run = RUN("info", "i.png");
-        expect(&run, 0, "");
-        program_run_free(&run);
+        expect_run(run, 0, "");
     }
 }
 
@@ -397,7 +360,7 @@ static void elsewhere_progress_is_ten_lines_at_most(void **state)
 {
     (void)state;
     program_run run = RUN("render", "scene.gltf", "--size", "64x32", "--time", "0.5", "-o", "p.png");
-    expect(&run, 0, " M samples, ");
+    program_run_check(&run, 0, "", " M samples, ");
     size_t n = 0;
     for (const char *p = run.err; (p = strstr(p, " %, ")) != NULL; p++) n++;
     assert_true(n >= 1 && n <= 10);
@@ -432,21 +395,19 @@ static void comparisons_pass_and_fail_by_their_limit(void **state)
     };
     for (size_t i = 0; i < sizeof cases/sizeof *cases; i++) {
         program_run run = RUN("compare", cases[i].a, cases[i].b, "--metric", cases[i].metric, "--max", cases[i].limit);
-        expect(&run, cases[i].status, "");
+        program_run_check(&run, cases[i].status, "", "");
         assert_non_null(strstr(run.out, cases[i].metric));
         program_run_free(&run);
     }
     program_run run = RUN("compare", "x.png", "y.png", "--diff", "d.png");
-    expect(&run, 0, "note: d.png: white is a difference of ");
-    program_run_free(&run);
+    expect_run(run, 0, "note: d.png: white is a difference of ");
     run = RUN("info", "d.png");
-    expect(&run, 0, "");
+    program_run_check(&run, 0, "", "");
     assert_non_null(strstr(run.out, "32 x 16 pixels"));
     program_run_free(&run);
     MAKE("small.png", "--crop", "0,0,8,8");
     run = RUN("compare", "x.png", "small.png");
-    expect(&run, 3, "small.png: has 8 x 8 pixels where x.png has 32 x 16; sizes have to match");
-    program_run_free(&run);
+    expect_run(run, 3, "small.png: has 8 x 8 pixels where x.png has 32 x 16; sizes have to match");
 }
 
 int main(void)
@@ -467,5 +428,5 @@ int main(void)
         cmocka_unit_test(elsewhere_progress_is_ten_lines_at_most),
         cmocka_unit_test(comparisons_pass_and_fail_by_their_limit),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, make_scene_folder, remove_test_folder);
 }

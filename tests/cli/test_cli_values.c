@@ -12,32 +12,7 @@
 #include <cmocka.h>
 
 #include "facet/facet.h"
-#include "tests/run_program.h"
-
-static char *folder;
-
-#define RUN(...) run_program(folder, NULL, NULL, (const char *const[]){FACET_PROGRAM, __VA_ARGS__, NULL})
-
-static int setup(void **state)
-{
-    (void)state;
-    folder = make_folder();
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    remove_folder(folder);
-    return 0;
-}
-
-static void expect(const program_run *run, int status, const char *in_err)
-{
-    if (run->status != status || !strstr(run->err, in_err))
-        fail_msg("status %d (expected %d), stderr, expected `%s`:\n%s\n%s", run->status, status, in_err, run->err,
-                 run->out);
-}
+#include "tests/program_folder.h"
 
 /* The numbers of line `row` (0 is the header) of CSV text; fails unless there are n. */
 static void csv_row(const char *text, size_t row, double *numbers, size_t n)
@@ -91,7 +66,7 @@ static void eval_equals_the_library(void **state)
     facet_bsdf64_eval(&bsdf64, wi64, wo64, f64);
 
     program_run run = RUN("eval", material, "--wi", "0,.6,.8", "--wo", ".28,0,.96");
-    expect(&run, 0, "");
+    program_run_check(&run, 0, "", "");
     csv_row(run.out, 1, got, 13);
     for (int k = 0; k < 3; k++) {
         assert_true((float)got[9 + k] == f[k]); /* 9 digits tell floats apart */
@@ -101,7 +76,7 @@ static void eval_equals_the_library(void **state)
     program_run_free(&run);
 
     run = RUN("eval", material, "--wi=0,.6,.8", "--wo=.28,0,.96", "--double");
-    expect(&run, 0, "");
+    program_run_check(&run, 0, "", "");
     csv_row(run.out, 1, got, 13);
     /* The program normalises its input, which may move it by one rounding: 4 epsilon in the result. */
     for (int k = 0; k < 3; k++) assert_true(fabs(got[9 + k]/f64[k] - 1) < 1e-14);
@@ -119,7 +94,7 @@ static void eval_csv_takes_columns_in_any_order_and_copies_the_six(void **state)
     program_run run = RUN("eval", material, "--csv", path),
                 piped = run_program(folder, path, NULL,
                                     (const char *const[]){FACET_PROGRAM, "eval", material, "--csv", "-", NULL});
-    expect(&run, 0, "");
+    program_run_check(&run, 0, "", "");
     assert_string_equal(run.out, piped.out);
     const char header[] = "wi_x,wi_y,wi_z,wo_x,wo_y,wo_z,f_r,f_g,f_b,fcos_r,fcos_g,fcos_b,pdf\n";
     assert_int_equal(strncmp(run.out, header, sizeof header - 1), 0);
@@ -150,7 +125,7 @@ static void eval_csv_keeps_every_row_of_a_long_file(void **state)
     fclose(stream);
     const facet_bsdf bsdf = prepare(material);
     program_run run = RUN("eval", material, "--csv", path);
-    expect(&run, 0, "");
+    program_run_check(&run, 0, "", "");
     const char *line = run.out;
     for (int i = 0; i < ROWS; i++) {
         double got[13];
@@ -190,21 +165,18 @@ static void damaged_csv_is_refused_with_its_line(void **state)
     for (size_t i = 0; i < sizeof cases/sizeof *cases; i++) {
         write_text(path, cases[i].text);
         program_run run = RUN("eval", "lambert", "--csv", "bad.csv");
-        expect(&run, 3, cases[i].message);
-        program_run_free(&run);
+        expect_run(run, 3, cases[i].message);
     }
     write_text(path, "cos_theta\n1.5\n");
     program_run run = RUN("terms", "ggx", "--csv", "bad.csv");
-    expect(&run, 3, "bad.csv:line 2: cos_theta is 1.5; it has to be from -1 to 1");
-    program_run_free(&run);
+    expect_run(run, 3, "bad.csv:line 2: cos_theta is 1.5; it has to be from -1 to 1");
     char *line = malloc(70001);
     memset(line, '1', 70000);
     line[70000] = 0;
     write_text(path, line);
     free(line);
     run = RUN("terms", "ggx", "--csv", "bad.csv");
-    expect(&run, 3, "bad.csv:line 1: the line is longer than");
-    program_run_free(&run);
+    expect_run(run, 3, "bad.csv:line 1: the line is longer than");
 }
 
 /* ---- terms, sample, albedo --------------------------------------------------------------------- */
@@ -224,7 +196,7 @@ static void terms_equal_the_library(void **state)
     const facet_terms64 t64 = facet_bsdf64_terms(&bsdf64, m);
 
     program_run run = RUN("terms", material, "--csv", path);
-    expect(&run, 0, "");
+    program_run_check(&run, 0, "", "");
     assert_int_equal(strncmp(run.out, "cos_theta,phi,D,Lambda,G1\n0.25,0.5,", 35), 0);
     csv_row(run.out, 1, got, 5);
     assert_true((float)got[2] == t.D && (float)got[3] == t.Lambda && (float)got[4] == t.G1);
@@ -368,5 +340,5 @@ int main(void)
         cmocka_unit_test(samples_are_the_librarys_and_repeat_by_seed),
         cmocka_unit_test(albedo_of_known_materials),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -12,12 +12,9 @@
 #include <cmocka.h>
 
 #include "tests/picture_bytes.h"
-#include "tests/run_program.h"
-#include "tests/small_scene.h"
+#include "tests/program_folder.h"
 
 #define FARM FACET_SOURCE_DIR "/examples/farm/"
-
-static char *folder;
 
 /* Runs an array's tasks from the last to the first.  Each is sent SIGTERM once, at a time of its own, as before its
  * time limit, until it ends without asking to be requeued. */
@@ -94,21 +91,12 @@ static void shell(const char *line)
 
 static int setup(void **state)
 {
-    (void)state;
-    folder = make_folder();
+    make_scene_folder(state);
     shell("mkdir bin");
-    write_text(in_folder(folder, "scene.gltf"), small_scene);
     write_text(in_folder(folder, "bin/sbatch"), fake_sbatch);
     write_text(in_folder(folder, "bin/scontrol"), fake_scontrol);
     write_text(in_folder(folder, "bin/outline.py"), fake_outline);
     shell("chmod +x bin/sbatch bin/scontrol; facet render scene.gltf --size 64x32 --spp 600 --quiet -o whole.exr");
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    remove_folder(folder);
     return 0;
 }
 
@@ -154,5 +142,5 @@ int main(void)
         cmocka_unit_test(opencue_renders_frames_and_merges_them),
         cmocka_unit_test(the_shell_script_is_clean),
     };
-    return cmocka_run_group_tests_name("farm", tests, setup, teardown);
+    return cmocka_run_group_tests_name("farm", tests, setup, remove_test_folder);
 }

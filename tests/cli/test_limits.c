@@ -12,23 +12,7 @@
 /* cmocka needs the headers above */
 #include <cmocka.h>
 
-#include "tests/run_program.h"
-
-static char *folder;
-
-static int setup(void **state)
-{
-    (void)state;
-    folder = make_folder();
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    remove_folder(folder);
-    return 0;
-}
+#include "tests/program_folder.h"
 
 /* A line of the shell in the folder, where $facet is the program. */
 static program_run shell(const char *line)
@@ -244,5 +228,5 @@ int main(void)
         cmocka_unit_test(pictures_are_refused_before_they_are_decoded),
         cmocka_unit_test(without_address_space_a_scene_ends_in_order),
     };
-    return cmocka_run_group_tests_name("limits", tests, setup, teardown);
+    return cmocka_run_group_tests_name("limits", tests, make_test_folder, remove_test_folder);
 }

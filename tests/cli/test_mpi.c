@@ -17,19 +17,14 @@
 
 #include "io/checkpoint.h"
 #include "tests/picture_bytes.h"
-#include "tests/run_program.h"
-#include "tests/small_scene.h"
-
-static char *folder;
+#include "tests/program_folder.h"
 
 #define SHELL(...) run_program(folder, NULL, NULL, (const char *const[]){"/bin/sh", "-c", __VA_ARGS__, NULL})
 
 /* $MPIRUN and $FACET are there for the tests' shell lines. */
 static int setup(void **state)
 {
-    (void)state;
-    folder = make_folder();
-    write_text(in_folder(folder, "scene.gltf"), small_scene);
+    make_scene_folder(state);
     setenv("MPIRUN", FACET_MPIRUN, 1);
     setenv("FACET", FACET_PROGRAM, 1);
     setenv("OPTIONS", "--size 96x48 --quiet --threads 1", 1);
@@ -39,13 +34,6 @@ static int setup(void **state)
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
     setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 1);
     setenv("OMPI_MCA_mpi_yield_when_idle", "1", 1);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    remove_folder(folder);
     return 0;
 }
 
@@ -317,5 +305,5 @@ int main(void)
         cmocka_unit_test(a_signal_to_any_rank_saves_the_work_of_all),
         cmocka_unit_test(a_launcher_of_another_mpi_is_told),
     };
-    return cmocka_run_group_tests_name("mpi", tests, setup, teardown);
+    return cmocka_run_group_tests_name("mpi", tests, setup, remove_test_folder);
 }

@@ -16,10 +16,7 @@
 
 #include "render/film.h"
 #include "tests/picture_bytes.h"
-#include "tests/run_program.h"
-#include "tests/small_scene.h"
-
-static char *folder;
+#include "tests/program_folder.h"
 
 /* Each machine has a network and a host name of its own.  On one kernel, UCX would otherwise find memory that both
  * see; inside a container, Open MPI would look for other interfaces. */
@@ -63,9 +60,7 @@ static void run(const char *line)
 
 static int setup(void **state)
 {
-    (void)state;
-    folder = make_folder();
-    write_text(in_folder(folder, "scene.gltf"), small_scene);
+    make_scene_folder(state);
     write_text(in_folder(folder, "environment"), environment);
     write_text(in_folder(folder, "remote_shell"), remote_shell);
     run("chmod +x remote_shell");

@@ -22,26 +22,12 @@
 #include "cli/web_server.h"
 #include "io/image_file.h"
 #include "tests/picture_bytes.h"
-#include "tests/run_program.h"
-#include "tests/small_scene.h"
-
-static char *folder;
-
-#define RUN(...) run_program(folder, NULL, NULL, (const char *const[]){FACET_PROGRAM, __VA_ARGS__, NULL})
+#include "tests/program_folder.h"
 
 static int setup(void **state)
 {
-    (void)state;
-    folder = make_folder();
-    write_text(in_folder(folder, "scene.gltf"), small_scene);
+    make_scene_folder(state);
     write_text(in_folder(folder, "token"), "0123456789abcdef-Z\n");
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    remove_folder(folder);
     return 0;
 }
 
@@ -412,5 +398,5 @@ int main(void)
         cmocka_unit_test(serve_takes_no_scene_for_its_port),
         cmocka_unit_test(a_folder_is_served_and_nothing_else),
     };
-    return cmocka_run_group_tests_name("serve", tests, setup, teardown);
+    return cmocka_run_group_tests_name("serve", tests, setup, remove_test_folder);
 }

@@ -1,5 +1,6 @@
 /* test_serve_browser.c: the page of `facet render --serve` in headless Chromium: what it says and what it looks like,
- * in light and dark.  Skipped where there is no Chromium, or facet was built without civetweb.
+ * in light and dark, and what its buttons do.  FACET_SCREENSHOTS names a folder for people who want to look.
+ * Skipped where there is no Chromium, or facet was built without civetweb.
  * SPDX-License-Identifier: MIT */
 #include <setjmp.h>
 #include <signal.h>
@@ -15,31 +16,23 @@
 #include <cmocka.h>
 
 #include "io/image_file.h"
-#include "tests/run_program.h"
-#include "tests/small_scene.h"
+#include "tests/driven_browser.h"
+#include "tests/program_folder.h"
 
-static char *folder;
-
-static int setup(void **state)
+static void skip_without_browser(void)
 {
-    (void)state;
-    folder = make_folder();
-    write_text(in_folder(folder, "scene.gltf"), small_scene);
-    return 0;
+    if (FACET_HAS_WEB && FACET_CHROMIUM[0]) return;
+    print_message("skipped: %s\n", FACET_HAS_WEB ? "chromium was not found: apt-get install chromium"
+                                                 : "facet was built without civetweb");
+    skip();
 }
 
-static int teardown(void **state)
+/* Starts a render that lasts as long as an option says; returns its page's address, the caller's to free. */
+static char *start(pid_t *pid, const char *lasts, const char *much, const char *stay)
 {
-    (void)state;
-    remove_folder(folder);
-    return 0;
-}
-
-/* Starts a render whose page stays; returns the page's address, the caller's to free. */
-static char *start(pid_t *pid, const char *spp)
-{
-    const char *const argv[] = {FACET_PROGRAM, "render", "scene.gltf", "--size", "480x240",      "--spp", spp,
-                                "-o",          "s.exr",  "--serve",    "0",      "--serve-stay", NULL};
+    const char *const argv[] = {FACET_PROGRAM, "render", "scene.gltf", "--size", "480x240", lasts, much,
+                                "-o",          "s.exr",  "--serve",    "0",      stay,      NULL};
+    unlink(in_folder(folder, "s.exr"));
     unlink(in_folder(folder, "stderr"));
     *pid = start_program(folder, NULL, NULL, argv);
     for (;; usleep(2000)) {
@@ -94,6 +87,16 @@ static const unsigned char *pixel_at(const image *screen, size_t x, size_t y)
     return (const unsigned char *)screen->pixels + (y*screen->width + x)*screen->n_channels;
 }
 
+static void keep_screen(const char *name)
+{
+    const char *keep = getenv("FACET_SCREENSHOTS");
+    if (!keep) return;
+    char to[1300];
+    snprintf(to, sizeof to, "%s/serve-%s.png", keep, name);
+    const char *const argv[] = {"/bin/cp", in_folder(folder, "screen.png"), to, NULL};
+    assert_int_equal(wait_for_program(start_program(folder, NULL, "/dev/null", argv)), 0);
+}
+
 static void look(const char *url, bool is_dark)
 {
     program_run run = open_page(url, is_dark);
@@ -113,27 +116,16 @@ static void look(const char *url, bool is_dark)
     for (size_t y = 200; y < 400; y++)
         for (size_t x = 300; x < 700; x++) n_others += memcmp(pixel_at(&s, x, y), corner, 3) != 0;
     assert_true(n_others > 200*400/2);
-    const char *keep = getenv("FACET_SCREENSHOTS"); /* a folder for people who want to look */
-    if (keep) {
-        char line[3000];
-        snprintf(line, sizeof line, "cp '%s' '%s/serve-%s.png'", in_folder(folder, "screen.png"), keep,
-                 is_dark ? "dark" : "light");
-        const char *const argv[] = {"/bin/sh", "-c", line, NULL};
-        assert_int_equal(wait_for_program(start_program(folder, NULL, "/dev/null", argv)), 0);
-    }
+    keep_screen(is_dark ? "dark" : "light");
     image_destroy(&s);
 }
 
 static void a_browser_shows_the_render_in_light_and_dark(void **state)
 {
     (void)state;
-    if (!FACET_HAS_WEB || !FACET_CHROMIUM[0]) {
-        print_message("skipped: %s\n", FACET_HAS_WEB ? "chromium was not found: apt-get install chromium"
-                                                     : "facet was built without civetweb");
-        skip();
-    }
+    skip_without_browser();
     pid_t pid;
-    char *url = start(&pid, "40");
+    char *url = start(&pid, "--spp", "40", "--serve-stay");
     look(url, false); /* opened while it renders, waits for its end */
     look(url, true);
     free(url);
@@ -141,8 +133,71 @@ static void a_browser_shows_the_render_in_light_and_dark(void **state)
     assert_int_equal(wait_for_program(pid), 0);
 }
 
+static pid_t watched; /* the render that a test has not seen the end of, or 0 */
+
+static int end_watched(void **state)
+{
+    (void)state;
+    if (watched && kill(watched, SIGKILL) == 0) wait_for_program(watched);
+    watched = 0;
+    return 0;
+}
+
+/* Watches a render of ten minutes get on, presses a button, and expects the end of it. */
+static void watch_and_press(const char *button, const char *phase, int status)
+{
+    skip_without_browser();
+    char *url = start(&watched, "--time", "600", NULL);
+    driven_browser b = browser_start(FACET_CHROMIUM, folder, url);
+    browser_wait(&b, "typeof at == 'function' && at('phase').textContent == 'rendering'");
+    browser_wait(&b, "at('picture').naturalWidth == 480 && shown > 0");
+    char *before = browser_value(
+        &b, "[at('picture').src, at('samples').textContent, at('bar').value, at('noise').textContent]");
+    browser_wait(&b, "(window.first = window.first || at('picture').src) != at('picture').src"); /* it refines */
+    browser_wait(&b, "at('noise').textContent.endsWith('%')");
+    char *after = browser_value(
+        &b, "[at('picture').src, at('samples').textContent, at('bar').value, at('noise').textContent]");
+    assert_string_not_equal(before, after);
+    browser_wait(&b, "at('bar').value > 0 && at('bar').value < 1 && !at('finish').disabled && !at('cancel').disabled");
+    browser_screenshot(&b, in_folder(folder, "screen.png"));
+    keep_screen(button);
+    browser_click(&b, button);
+    char expression[100];
+    snprintf(expression, sizeof expression, "at('phase').textContent == '%s'", phase);
+    browser_wait(&b, expression); /* the last thing that the server says */
+    browser_wait(&b, "at('finish').disabled && at('cancel').disabled && at('left').textContent == '-'");
+    assert_int_equal(wait_for_program(watched), status);
+    watched = 0;
+    browser_screenshot(&b, in_folder(folder, "screen.png"));
+    keep_screen(phase);
+    browser_stop(&b);
+    free(before);
+    free(after);
+    free(url);
+    image saved;
+    facet_error why = {0};
+    if (image_read(in_folder(folder, "s.exr"), &saved, &why)) fail_msg("%s", why.text);
+    assert_true(saved.width == 480 && saved.height == 240);
+    image_destroy(&saved);
+}
+
+static void finish_now_ends_the_render_with_its_picture(void **state)
+{
+    (void)state;
+    watch_and_press("finish", "finished", 0);
+}
+
+static void cancel_stops_the_render_and_saves_it(void **state)
+{
+    (void)state;
+    watch_and_press("cancel", "cancelled", 130);
+}
+
 int main(void)
 {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(a_browser_shows_the_render_in_light_and_dark)};
-    return cmocka_run_group_tests_name("serve_browser", tests, setup, teardown);
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(a_browser_shows_the_render_in_light_and_dark),
+        cmocka_unit_test_teardown(finish_now_ends_the_render_with_its_picture, end_watched),
+        cmocka_unit_test_teardown(cancel_stops_the_render_and_saves_it, end_watched)};
+    return cmocka_run_group_tests_name("serve_browser", tests, make_scene_folder, remove_test_folder);
 }

@@ -18,32 +18,14 @@
 #include "io/image_file.h"
 #include "plot/canvas.h"
 #include "tests/merl_file.h"
-#include "tests/run_program.h"
+#include "tests/program_folder.h"
 
-static char *folder;
-
-#define RUN(...) run_program(folder, NULL, NULL, (const char *const[]){FACET_PROGRAM, "verify", __VA_ARGS__, NULL})
-
-static int setup(void **state)
-{
-    (void)state;
-    folder = make_folder();
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    remove_folder(folder);
-    return 0;
-}
+#define VERIFY(...) run_program(folder, NULL, NULL, (const char *const[]){FACET_PROGRAM, "verify", __VA_ARGS__, NULL})
 
 /* Runs end with the status, and say this on stdout and stderr. */
 static void expect(program_run run, int status, const char *in_out, const char *in_err)
 {
-    if (run.status != status || !strstr(run.out, in_out) || !strstr(run.err, in_err))
-        fail_msg("status %d (expected %d); expected `%s` in:\n%s\nand `%s` in:\n%s", run.status, status, in_out,
-                 run.out, in_err, run.err);
+    program_run_check(&run, status, in_out, in_err);
     program_run_free(&run);
 }
 
@@ -82,7 +64,7 @@ static void every_published_mistake_fails(void **state)
         snprintf(name, sizeof name, "%.*s", (int)(length - 2), entry->d_name);
         snprintf(line, sizeof line, "  %-18s FAILS", check);
         print_message("  %s: %s\n", name, check);
-        expect(RUN("--plugin", plugin(name), "--check", check, "--samples", "50000"), 1, line, "");
+        expect(VERIFY("--plugin", plugin(name), "--check", check, "--samples", "50000"), 1, line, "");
         n++;
     }
     closedir(listing);
@@ -93,63 +75,63 @@ static void every_published_mistake_fails(void **state)
 static void the_rest_of_a_mistaken_model_holds(void **state)
 {
     (void)state;
-    expect(RUN("--plugin", plugin("phong_exponent"), "--check", "furnace"), 0, "all checks hold", "");
-    expect(RUN("--plugin", plugin("phong_exponent"), "--check", "weight"), 0, "all checks hold", "");
-    expect(RUN("--plugin", plugin("two_alphas"), "--check", "chi-square", "--samples", "50000"), 0, "all checks hold",
-           "");
-    expect(RUN("--plugin", plugin("two_alphas"), "--check", "normalisation"), 0, "all checks hold", "");
-    expect(RUN("--plugin", plugin("bonn_ward"), "--check", "reciprocity"), 0, "all checks hold", "");
-    expect(RUN("--plugin", plugin("weight_without_cos"), "--check", "chi-square", "--samples", "50000"), 0,
+    expect(VERIFY("--plugin", plugin("phong_exponent"), "--check", "furnace"), 0, "all checks hold", "");
+    expect(VERIFY("--plugin", plugin("phong_exponent"), "--check", "weight"), 0, "all checks hold", "");
+    expect(VERIFY("--plugin", plugin("two_alphas"), "--check", "chi-square", "--samples", "50000"), 0,
+           "all checks hold", "");
+    expect(VERIFY("--plugin", plugin("two_alphas"), "--check", "normalisation"), 0, "all checks hold", "");
+    expect(VERIFY("--plugin", plugin("bonn_ward"), "--check", "reciprocity"), 0, "all checks hold", "");
+    expect(VERIFY("--plugin", plugin("weight_without_cos"), "--check", "chi-square", "--samples", "50000"), 0,
            "all checks hold", "");
 }
 
 static void the_example_holds(void **state)
 {
     (void)state;
-    expect(RUN("--plugin", FACET_EXAMPLES "/plugin_phong.so", "exponent=20"), 0, "all checks hold", "");
+    expect(VERIFY("--plugin", FACET_EXAMPLES "/plugin_phong.so", "exponent=20"), 0, "all checks hold", "");
 }
 
 static void plugins_that_fail_end_with_a_line(void **state)
 {
     (void)state;
-    expect(RUN("--plugin", plugin("crash")), 3, "", "was ended by signal 11");
-    expect(RUN("--plugin", plugin("hang"), "--patience", "0.5"), 3, "", "has not returned for 0.5 s in eval");
-    expect(RUN("--plugin", plugin("nan")), 1, "positive           FAILS  inf", "");
-    expect(RUN("--plugin", plugin("no_describe")), 3, "", "defines no facet_plugin_describe");
-    expect(RUN("--plugin", plugin("old_size")), 3, "", "smaller than this version's");
-    expect(RUN("--plugin", plugin("bad_table")), 3, "", "lowest, value and highest");
-    expect(RUN("--plugin", plugin("absent")), 3, "", "No such file");
-    expect(RUN("--plugin", plugin("two_alphas"), "roughnes=.5"), 2, "", "did you mean `roughness`?");
-    expect(RUN("--plugin", plugin("two_alphas"), "roughness=7"), 2, "", "out of range");
-    expect(RUN("--plugin", plugin("two_alphas"), "roughness=x"), 2, "", "is not a number");
-    expect(RUN("--plugin", plugin("two_alphas"), "roughness"), 2, "", "NAME=VALUE");
+    expect(VERIFY("--plugin", plugin("crash")), 3, "", "was ended by signal 11");
+    expect(VERIFY("--plugin", plugin("hang"), "--patience", "0.5"), 3, "", "has not returned for 0.5 s in eval");
+    expect(VERIFY("--plugin", plugin("nan")), 1, "positive           FAILS  inf", "");
+    expect(VERIFY("--plugin", plugin("no_describe")), 3, "", "defines no facet_plugin_describe");
+    expect(VERIFY("--plugin", plugin("old_size")), 3, "", "smaller than this version's");
+    expect(VERIFY("--plugin", plugin("bad_table")), 3, "", "lowest, value and highest");
+    expect(VERIFY("--plugin", plugin("absent")), 3, "", "No such file");
+    expect(VERIFY("--plugin", plugin("two_alphas"), "roughnes=.5"), 2, "", "did you mean `roughness`?");
+    expect(VERIFY("--plugin", plugin("two_alphas"), "roughness=7"), 2, "", "out of range");
+    expect(VERIFY("--plugin", plugin("two_alphas"), "roughness=x"), 2, "", "is not a number");
+    expect(VERIFY("--plugin", plugin("two_alphas"), "roughness"), 2, "", "NAME=VALUE");
     write_text(in_folder(folder, "text.so"), "no library\n");
-    expect(RUN("--plugin", "text.so"), 3, "", "is no shared library");
+    expect(VERIFY("--plugin", "text.so"), 3, "", "is no shared library");
 }
 
 static void measurements_are_of_their_format(void **state)
 {
     (void)state;
     write_text(in_folder(folder, "text.binary"), "no measurements\n");
-    expect(RUN("merl file=text.binary"), 3, "", "text.binary:byte 0: its sizes are");
-    expect(RUN("merl file=absent.binary"), 3, "", "absent.binary");
-    expect(RUN("merl"), 2, "", "merl");
+    expect(VERIFY("merl file=text.binary"), 3, "", "text.binary:byte 0: its sizes are");
+    expect(VERIFY("merl file=absent.binary"), 3, "", "absent.binary");
+    expect(VERIFY("merl"), 2, "", "merl");
 }
 
 static void materials_are_verified(void **state)
 {
     (void)state;
-    expect(RUN("ggx alpha=.3", "--samples", "50000"), 0, "all checks hold", "");
-    expect(RUN("gtr alpha=.1 gamma=1.5", "--fixed", "--samples", "50000"), 0, "all checks hold", "");
-    expect(RUN("gtr alpha=.1 gamma=1.5 masking=published", "--check", "weak-furnace"), 1, "weak-furnace       FAILS",
+    expect(VERIFY("ggx alpha=.3", "--samples", "50000"), 0, "all checks hold", "");
+    expect(VERIFY("gtr alpha=.1 gamma=1.5", "--fixed", "--samples", "50000"), 0, "all checks hold", "");
+    expect(VERIFY("gtr alpha=.1 gamma=1.5 masking=published", "--check", "weak-furnace"), 1, "weak-furnace       FAILS",
            "");
-    expect(RUN("phong exponent=1 masking=published", "--check", "weak-furnace"), 1, "weak-furnace       FAILS", "");
-    expect(RUN("lambert kd=1", "--check", "furnace", "--json"), 0, "\"verdict\": \"passed\"", "");
-    expect(RUN("ggx roughness=.3"), 2, "", "roughness");
-    expect(RUN("--all", "ggx"), 2, "", "takes no material");
-    expect(RUN("--check", "furnace"), 2, "", "one material is needed");
-    expect(RUN("ggx", "--check", "colour"), 2, "", "colour");
-    expect(RUN("ggx alpha=.3", "--search"), 0, "  albedo ", "");
+    expect(VERIFY("phong exponent=1 masking=published", "--check", "weak-furnace"), 1, "weak-furnace       FAILS", "");
+    expect(VERIFY("lambert kd=1", "--check", "furnace", "--json"), 0, "\"verdict\": \"passed\"", "");
+    expect(VERIFY("ggx roughness=.3"), 2, "", "roughness");
+    expect(VERIFY("--all", "ggx"), 2, "", "takes no material");
+    expect(VERIFY("--check", "furnace"), 2, "", "one material is needed");
+    expect(VERIFY("ggx", "--check", "colour"), 2, "", "colour");
+    expect(VERIFY("ggx alpha=.3", "--search"), 0, "  albedo ", "");
 }
 
 /* The tables of 25 digits: those of the tree, whose rows are some of the full ones; and if these lie beside the tree,
@@ -157,16 +139,16 @@ static void materials_are_verified(void **state)
 static void errors_against_tables_are_those_in_the_documents(void **state)
 {
     (void)state;
-    expect(RUN("--truth", FACET_SOURCE_DIR "/tests/data/reference"), 0, "| beckmann | Lambda | relative | 51 |", "");
-    expect(RUN("--truth", FACET_SOURCE_DIR "/tests/data/reference", "--json"), 0, "\"term\": \"G1\"", "");
-    expect(RUN("--truth", "absent"), 3, "", "absent: has none of the tables");
-    expect(RUN("--truth", "absent", "ggx"), 2, "", "--truth: takes no material");
+    expect(VERIFY("--truth", FACET_SOURCE_DIR "/tests/data/reference"), 0, "| beckmann | Lambda | relative | 51 |", "");
+    expect(VERIFY("--truth", FACET_SOURCE_DIR "/tests/data/reference", "--json"), 0, "\"term\": \"G1\"", "");
+    expect(VERIFY("--truth", "absent"), 3, "", "absent: has none of the tables");
+    expect(VERIFY("--truth", "absent", "ggx"), 2, "", "--truth: takes no material");
     write_text(in_folder(folder, "d.csv"), "model,alpha_x,alpha_y,cos_theta,phi\n");
-    expect(RUN("--truth", "."), 3, "", "no column `gamma`");
+    expect(VERIFY("--truth", "."), 3, "", "no column `gamma`");
     write_text(in_folder(folder, "d.csv"), "model,gamma,alpha_x,alpha_y,cos_theta,phi,D\ngxx,0,.1,.1,1,0,1\n");
-    expect(RUN("--truth", "."), 3, "", "d.csv:line 2: ");
+    expect(VERIFY("--truth", "."), 3, "", "d.csv:line 2: ");
     if (access(FACET_SOURCE_DIR "/../shared/reference/d.csv", R_OK) != 0) return;
-    program_run run = RUN("--truth", FACET_SOURCE_DIR "/../shared/reference");
+    program_run run = VERIFY("--truth", FACET_SOURCE_DIR "/../shared/reference");
     char *document = read_bytes(FACET_SOURCE_DIR "/docs/verification.md", NULL);
     assert_non_null(document);
     if (run.status != 0 || !strstr(document, run.out)) fail_msg("docs/verification.md has not:\n%s", run.out);
@@ -199,17 +181,17 @@ static void what_was_verified_is_drawn(void **state)
 {
     (void)state;
     need_cairo();
-    expect(RUN("ggx alpha_x=.1 alpha_y=.4", "--fixed", "--samples", "20000", "--plot", "right"), 0, "all checks hold",
-           "");
+    expect(VERIFY("ggx alpha_x=.1 alpha_y=.4", "--fixed", "--samples", "20000", "--plot", "right"), 0,
+           "all checks hold", "");
     assert_true(coloured_share("right/1-chi-square.png", 1320, 1065) > 0.3);
     assert_true(coloured_share("right/1-furnace.png", 1200, 500) > 0.02);
     /* the same folder again, and only what is asked for */
     remove(in_folder(folder, "right/1-chi-square.png"));
-    expect(RUN("glass alpha=.3", "--fixed", "--check", "weak-furnace", "--plot", "right"), 0, "all checks hold", "");
+    expect(VERIFY("glass alpha=.3", "--fixed", "--check", "weak-furnace", "--plot", "right"), 0, "all checks hold", "");
     assert_true(access(in_folder(folder, "right/1-chi-square.png"), F_OK) != 0);
-    expect(RUN("--plugin", plugin("sampler_alpha"), "--samples", "20000", "--plot", "wrong"), 1, "fail", "");
+    expect(VERIFY("--plugin", plugin("sampler_alpha"), "--samples", "20000", "--plot", "wrong"), 1, "fail", "");
     assert_true(coloured_share("wrong/3-chi-square.png", 1320, 1065) > 0.3);
-    expect(RUN("--plugin", plugin("crash"), "--plot", "wrong"), 3, "", "was ended by signal 11");
+    expect(VERIFY("--plugin", plugin("crash"), "--plot", "wrong"), 3, "", "was ended by signal 11");
 }
 
 static void measurements_are_drawn(void **state)
@@ -217,7 +199,7 @@ static void measurements_are_drawn(void **state)
     (void)state;
     need_cairo();
     write_merl(in_folder(folder, "white.binary"));
-    expect(RUN("merl file=white.binary", "--plot", "measured"), 0, "the albedo is 1", "");
+    expect(VERIFY("merl file=white.binary", "--plot", "measured"), 0, "the albedo is 1", "");
     assert_true(coloured_share("measured/1-furnace.png", 1200, 500) > 0.02);
     assert_true(access(in_folder(folder, "measured/1-chi-square.png"), F_OK) != 0); /* it has no sampler */
 }
@@ -227,12 +209,12 @@ static void pictures_need_a_folder(void **state)
     (void)state;
     need_cairo();
     write_text(in_folder(folder, "text"), "no folder\n");
-    expect(RUN("ggx", "--plot", "text"), 4, "", "text: is not a folder");
-    expect(RUN("ggx", "--plot", "absent/folder"), 4, "", "absent/folder: the folder cannot be made: No such file");
+    expect(VERIFY("ggx", "--plot", "text"), 4, "", "text: is not a folder");
+    expect(VERIFY("ggx", "--plot", "absent/folder"), 4, "", "absent/folder: the folder cannot be made: No such file");
     assert_int_equal(mkdir(in_folder(folder, "closed"), 0500), 0);
     if (access(in_folder(folder, "closed"), W_OK)) /* not by root */
-        expect(RUN("ggx", "--plot", "closed"), 4, "", "closed: the folder cannot be written to");
-    expect(RUN("ggx", "--search", "--plot", "pictures"), 2, "", "--plot: does not go with --search");
+        expect(VERIFY("ggx", "--plot", "closed"), 4, "", "closed: the folder cannot be written to");
+    expect(VERIFY("ggx", "--search", "--plot", "pictures"), 2, "", "--plot: does not go with --search");
 }
 
 int main(void)
@@ -249,5 +231,5 @@ int main(void)
         cmocka_unit_test(measurements_are_drawn),
         cmocka_unit_test(pictures_need_a_folder),
     };
-    return cmocka_run_group_tests(tests, setup, teardown);
+    return cmocka_run_group_tests(tests, make_test_folder, remove_test_folder);
 }

@@ -17,26 +17,8 @@
 
 #include "io/image_file.h"
 #include "tests/picture_bytes.h"
-#include "tests/run_program.h"
+#include "tests/program_folder.h"
 #include "tests/scene_builder.h"
-#include "tests/small_scene.h"
-
-static char *folder;
-
-static int setup(void **state)
-{
-    (void)state;
-    folder = make_folder();
-    write_text(in_folder(folder, "scene.gltf"), small_scene);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    remove_folder(folder);
-    return 0;
-}
 
 /* A line of the shell in the folder, where $facet renders the scene. */
 static program_run shell(const char *line)
@@ -273,5 +255,5 @@ int main(void)
         cmocka_unit_test(a_scene_whose_files_change_is_another_scene),
         cmocka_unit_test(without_memory_a_render_ends_in_order),
     };
-    return cmocka_run_group_tests_name("faults", tests, setup, teardown);
+    return cmocka_run_group_tests_name("faults", tests, make_scene_folder, remove_test_folder);
 }

@@ -21,25 +21,7 @@
 #include "io/checkpoint.h"
 #include "tests/draws.h"
 #include "tests/picture_bytes.h"
-#include "tests/run_program.h"
-#include "tests/small_scene.h"
-
-static char *folder;
-
-static int setup(void **state)
-{
-    (void)state;
-    folder = make_folder();
-    write_text(in_folder(folder, "scene.gltf"), small_scene);
-    return 0;
-}
-
-static int teardown(void **state)
-{
-    (void)state;
-    remove_folder(folder);
-    return 0;
-}
+#include "tests/program_folder.h"
 
 static double in_seconds(struct timespec t)
 {
@@ -165,5 +147,5 @@ static void a_killed_render_resumes_to_the_same_bits(void **state)
 int main(void)
 {
     const struct CMUnitTest tests[] = {cmocka_unit_test(a_killed_render_resumes_to_the_same_bits)};
-    return cmocka_run_group_tests_name("kills", tests, setup, teardown);
+    return cmocka_run_group_tests_name("kills", tests, make_scene_folder, remove_test_folder);
 }
