@@ -33,7 +33,9 @@ typedef struct light_receivers {
 
 static inline light_receiver receiver_anywhere(real3 position)
 {
-    return (light_receiver){.position = position, .around = 1, .width = 1};
+    const real3 none = splat3(0);
+    const light_receiver to = {position, none, none, 1, 0, 0, 1};
+    return to;
 }
 
 static inline real3 position_at(light_receivers many, size_t i)
@@ -43,24 +45,23 @@ static inline real3 position_at(light_receivers many, size_t i)
 
 static inline light_receiver receiver_at(light_receivers many, size_t i)
 {
-    return (light_receiver){.position = position_at(many, i),
-                            .normal = {many.normal.x[i], many.normal.y[i], many.normal.z[i]},
-                            .mirror = {many.mirror.x[i], many.mirror.y[i], many.mirror.z[i]},
-                            .around = many.around[i],
-                            .broad = many.broad[i],
-                            .peak = many.peak[i],
-                            .width = many.width[i]};
+    const real3 normal = make3(many.normal.x[i], many.normal.y[i], many.normal.z[i]);
+    const real3 mirror = make3(many.mirror.x[i], many.mirror.y[i], many.mirror.z[i]);
+    const light_receiver to = {position_at(many, i), normal,       mirror,       many.around[i],
+                               many.broad[i],        many.peak[i], many.width[i]};
+    return to;
 }
 
 static inline light_receivers receivers_from(light_receivers many, size_t first)
 {
-    return (light_receivers){vectors_from(many.position, first),
-                             vectors_from(many.normal, first),
-                             vectors_from(many.mirror, first),
-                             many.around + first,
-                             many.broad + first,
-                             many.peak + first,
-                             many.width + first};
+    const light_receivers rest = {vectors_from(many.position, first),
+                                  vectors_from(many.normal, first),
+                                  vectors_from(many.mirror, first),
+                                  many.around + first,
+                                  many.broad + first,
+                                  many.peak + first,
+                                  many.width + first};
+    return rest;
 }
 
 /* Rounding may take a cosine this far down, and no further. */

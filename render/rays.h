@@ -2,6 +2,7 @@
  * SPDX-License-Identifier: MIT */
 #pragma once
 
+#include <stddef.h>
 #include <stdint.h>
 
 #ifdef __cplusplus
@@ -15,7 +16,8 @@ typedef struct vectors {
 
 static inline vectors vectors_from(vectors v, size_t first)
 {
-    return (vectors){v.x + first, v.y + first, v.z + first};
+    const vectors rest = {v.x + first, v.y + first, v.z + first};
+    return rest;
 }
 
 /* t_min < t < t_max along an unnormalised direction.  seed: decides about half-transparent surfaces. */
