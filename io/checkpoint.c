@@ -11,11 +11,6 @@
 #include "io/file.h"
 
 enum {
-    VERSION = 2,
-    HEAD_SIZE = 8 + 4*6 + 8*8 + 12*RENDER_MAX_REPORTED,
-    PIXEL_SIZE = 4*16 + 4,
-    FEATURES_SIZE = 6*8 + 16 + 4,
-    CRC_SIZE = 4,
     TEXT_CAP = 1 << 20, /* bytes of all texts */
     SIDE_CAP = 65536
 };
@@ -69,7 +64,7 @@ static void put_head(unsigned char *to, const render_state *state, uint32_t text
 {
     memcpy(to, MAGIC, sizeof MAGIC);
     to += sizeof MAGIC;
-    put32(&to, VERSION);
+    put32(&to, CHECKPOINT_VERSION);
     put32(&to, text_size);
     put32(&to, (uint32_t)state->film.width);
     put32(&to, (uint32_t)state->film.height);
@@ -117,7 +112,7 @@ static void get_head(const unsigned char *from, checkpoint *c, uint32_t *text_si
 
 static size_t row_size(size_t width, bool has_features)
 {
-    return width*(PIXEL_SIZE + (has_features ? FEATURES_SIZE : 0));
+    return width*(CHECKPOINT_PIXEL + (has_features ? CHECKPOINT_FEATURES : 0));
 }
 
 static void put_sum(unsigned char **to, exact_sum sum)
@@ -175,7 +170,7 @@ static void get_row(const unsigned char *from, film *f, size_t y)
 /* The bytes and the checksum of all bytes so far; a failed write is found when the file is committed. */
 static void write_part(FILE *stream, const unsigned char *bytes, size_t size, uLong *crc)
 {
-    unsigned char sum[CRC_SIZE], *to = sum;
+    unsigned char sum[CHECKPOINT_SUM], *to = sum;
     *crc = crc32(*crc, bytes, (uInt)size);
     put32(&to, (uint32_t)*crc);
     fwrite(bytes, 1, size, stream);
@@ -200,7 +195,7 @@ facet_status checkpoint_write(const char *path, const render_state *state, const
 {
     const film *f = &state->film;
     size_t text_size;
-    unsigned char head[HEAD_SIZE];
+    unsigned char head[CHECKPOINT_HEAD];
     unsigned char *text_bytes = join_texts(texts, n_texts, &text_size), *row = malloc(row_size(f->width, f->features));
     uLong crc = crc32(0, NULL, 0);
     file_writer writer;
@@ -230,7 +225,7 @@ facet_status checkpoint_write(const char *path, const render_state *state, const
 static facet_status read_part(FILE *stream, const char *part, unsigned char *bytes, size_t size, uLong *crc,
                               facet_error *why)
 {
-    unsigned char sum[CRC_SIZE];
+    unsigned char sum[CHECKPOINT_SUM];
     const unsigned char *from = sum;
     if (fread(bytes, 1, size, stream) != size || fread(sum, 1, sizeof sum, stream) != sizeof sum)
         return facet_error_set(why, FACET_IO, "", "cannot be read to the end of its %s", part);
@@ -244,15 +239,16 @@ static facet_status read_part(FILE *stream, const char *part, unsigned char *byt
 static facet_status read_head(FILE *stream, uint64_t size, checkpoint *c, uint32_t *text_size, uLong *crc,
                               facet_error *why)
 {
-    unsigned char head[HEAD_SIZE];
+    unsigned char head[CHECKPOINT_HEAD];
     const unsigned char *version = head + sizeof MAGIC;
-    if (size < HEAD_SIZE || fread(head, 1, sizeof MAGIC + 4, stream) != sizeof MAGIC + 4 ||
+    if (size < CHECKPOINT_HEAD || fread(head, 1, sizeof MAGIC + 4, stream) != sizeof MAGIC + 4 ||
         memcmp(head, MAGIC, sizeof MAGIC) != 0)
         return facet_error_set(why, FACET_BAD_FILE, "", "is not a checkpoint of facet");
     const uint32_t number = get32(&version);
-    if (number != VERSION)
+    if (number != CHECKPOINT_VERSION)
         return facet_error_set(why, FACET_UNSUPPORTED, "",
-                               "is a checkpoint of format %" PRIu32 "; this facet reads format %d", number, VERSION);
+                               "is a checkpoint of format %" PRIu32 "; this facet reads format %d", number,
+                               CHECKPOINT_VERSION);
     rewind(stream);
     const facet_status status = read_part(stream, "head", head, sizeof head, crc, why);
     if (status) return status;
@@ -262,8 +258,8 @@ static facet_status read_head(FILE *stream, uint64_t size, checkpoint *c, uint32
         f->width > IMAGE_PIXEL_CAP/f->height || *text_size > TEXT_CAP)
         return facet_error_set(why, FACET_UNSUPPORTED, "", "is of a picture of %zux%zu pixels, which is too large",
                                f->width, f->height);
-    const uint64_t expected = HEAD_SIZE + CRC_SIZE + *text_size + CRC_SIZE +
-                              f->height*(row_size(f->width, c->has_features) + CRC_SIZE);
+    const uint64_t expected = CHECKPOINT_HEAD + CHECKPOINT_SUM + *text_size + CHECKPOINT_SUM +
+                              f->height*(row_size(f->width, c->has_features) + CHECKPOINT_SUM);
     if (size != expected)
         return facet_error_set(why, FACET_BAD_FILE, "",
                                "is damaged: it has %" PRIu64 " bytes in place of %" PRIu64

@@ -17,6 +17,15 @@
 extern "C" {
 #endif
 
+/* Of the file's parts, in bytes: the head behind magic and version too, a pixel, and what features add to it. */
+enum {
+    CHECKPOINT_VERSION = 2,
+    CHECKPOINT_HEAD = 8 + 4*6 + 8*8 + 12*RENDER_MAX_REPORTED,
+    CHECKPOINT_PIXEL = 4*16 + 4,
+    CHECKPOINT_FEATURES = 6*8 + 16 + 4,
+    CHECKPOINT_SUM = 4
+};
+
 typedef struct checkpoint {
     render_state state; /* isa is NULL */
     bool has_features;

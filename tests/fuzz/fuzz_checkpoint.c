@@ -56,7 +56,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     const char *path = write_input("input.ckpt", file, file_size);
     checkpoint c;
     facet_error why = {0};
-    if (checkpoint_read(path, true, &c, &why)) {
+    const bool is_refused = checkpoint_read(path, true, &c, &why) != FACET_OK;
+    count_taken(!is_refused);
+    if (is_refused) {
         require(why.status && why.text[0]);
     } else {
         use(path, &c, file, file_size);

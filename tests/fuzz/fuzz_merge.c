@@ -29,6 +29,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     const int status = size - 2 - n
                            ? run_command(merge_command.run, 5, (char *[]){"merge", first, second, "-o", output})
                            : run_command(merge_command.run, 4, (char *[]){"merge", first, "-o", output});
+    count_taken(status == 0);
     require((access(output, F_OK) == 0) == (status == 0));
     unlink(output);
     return 0;

@@ -71,17 +71,19 @@ URIS = ["a.bin", "./sub/b.bin", "sub/../a.bin", "../out.bin", "%2e%2e/out.bin", 
 
 IDENTITY = [("facet:version", "0.1.0"), ("facet:command", "facet render --shard 1/2"), ("facet:scene_hash", "0" * 16),
             ("facet:seed", "0"), ("facet:samples", "2"), ("facet:isa", "avx2"), ("facet:strategy", "mis"),
-            ("facet:sampler", "sobol"), ("facet:depth", "8"), ("facet:camera", "front"), ("facet:size", "2x2"),
-            ("facet:crop", "0,0,2,2"), ("facet:world_to_camera", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"),
+            ("facet:sampler", "sobol"), ("facet:depth", "8"), ("facet:features", "not kept"),
+            ("facet:camera", "front"), ("facet:size", "2x2"), ("facet:crop", "0,0,2,2"), ("facet:world_to_camera", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"),
             ("facet:world_to_ndc", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1")]
 
 
-def checkpoint(shard, shards, width=2, height=2, texts=IDENTITY, samples=1):
+def checkpoint(shard, shards, width=2, height=2, texts=IDENTITY, samples=1, features=False):
     """An input of `checkpoint`: the file without its checksums, behind a 1."""
     texts = b"".join(f"{key}\0{value}\0".encode() for key, value in texts + [("facet:shard", f"{shard}/{shards}")])
-    head = b"facetckp" + struct.pack("<5I", 1, len(texts), width, height, samples)
-    head += struct.pack("<5Q2d", 4, 9, 4, 0, 0, 0.5, 0.25) + bytes(12*8)
+    head = b"facetckp" + struct.pack("<6I", 2, len(texts), width, height, features, samples)
+    head += struct.pack("<5Q3d", 4, 9, 4, 0, 0, 0.5, 0.25, 0.5) + bytes(12*8)
     pixel = struct.pack("<8QI", 1 << 51, 0, 1 << 50, 0, 1 << 49, 0, 1 << 40, 0, samples)
+    if features:
+        pixel += struct.pack("<6q2QI", 1 << 40, 1 << 39, 1 << 38, 0, 0, 1 << 40, 1 << 52, 0, samples)
     return b"\1" + head + texts + pixel*(width*height)
 
 
@@ -111,6 +113,7 @@ def files():
     whole = checkpoint(1, 1, texts=IDENTITY, samples=2)
     yield "checkpoint/whole", whole
     yield "checkpoint/none", checkpoint(1, 1, texts=[], width=1, height=1)
+    yield "checkpoint/features", checkpoint(1, 1, texts=IDENTITY, samples=2, features=True)
     yield "checkpoint/raw", b"\0" + whole[1:]
     yield "merge/shards", merge(checkpoint(1, 2), checkpoint(2, 2))
     yield "merge/alone", merge(whole)

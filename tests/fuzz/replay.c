@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
+#include "tests/fuzz/parts/harness.h"
 
 enum { LARGEST_CHANGED = 1 << 16 };
 
@@ -92,5 +92,9 @@ int main(int argc, char **argv)
     }
     closedir(folder);
     printf("%d files replayed\n", n_files);
+    if (n_taken == 0) {
+        fprintf(stderr, "replay: all inputs of %s are refused; do they follow the format?\n", argv[1]);
+        return 1;
+    }
     return n_files > 0 ? 0 : 1; /* without inputs nothing is tested */
 }

@@ -7,9 +7,10 @@
 
 #include <zlib.h>
 
+#include "io/checkpoint.h"
 #include "tests/fuzz/parts/harness.h"
 
-enum { HEAD = 180, PIXEL = 68, SUM = 4, MOST_PIXELS = 4096, MOST_TEXT = 65536 };
+enum { HEAD = CHECKPOINT_HEAD, SUM = CHECKPOINT_SUM, MOST_PIXELS = 4096, MOST_TEXT = 65536 };
 
 static uint32_t get32(const uint8_t *at)
 {
@@ -33,7 +34,7 @@ static void add_part(assembly *a, size_t size)
     memset(to + n, 0, size - n);
     a->input += n;
     a->left -= n;
-    if (a->size == 0) memcpy(to, "facetckp\1\0\0\0", 12);
+    if (a->size == 0) memcpy(to, (const uint8_t[12]){'f', 'a', 'c', 'e', 't', 'c', 'k', 'p', CHECKPOINT_VERSION}, 12);
     a->crc = crc32(a->crc, to, (uInt)size);
     for (int i = 0; i < SUM; i++) to[size + (size_t)i] = (uint8_t)(a->crc >> 8*i);
     a->size += size + SUM;
@@ -48,12 +49,13 @@ uint8_t *checkpoint_bytes(const uint8_t *input, size_t size, size_t *file_size)
     size_t text = get32(input + 1 + 12), width = get32(input + 1 + 16), height = get32(input + 1 + 20);
     if (text > MOST_TEXT) text = MOST_TEXT;
     if (width > MOST_PIXELS || height > MOST_PIXELS/(width ? width : 1)) width = height = 0;
-    *file_size = HEAD + SUM + text + SUM + height*(width*PIXEL + SUM);
+    const size_t pixel = CHECKPOINT_PIXEL + (get32(input + 1 + 24) ? CHECKPOINT_FEATURES : 0);
+    *file_size = HEAD + SUM + text + SUM + height*(width*pixel + SUM);
     assembly a = {input + 1, size - 1, 0, malloc(*file_size), crc32(0, NULL, 0)};
     require(a.file != NULL);
     add_part(&a, HEAD);
     add_part(&a, text);
-    for (size_t y = 0; y < height; y++) add_part(&a, width*PIXEL);
+    for (size_t y = 0; y < height; y++) add_part(&a, width*pixel);
     require(a.size == *file_size);
     return a.file;
 }

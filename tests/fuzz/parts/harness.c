@@ -14,6 +14,13 @@ void require(bool is_true)
     if (!is_true) abort();
 }
 
+int n_taken = -1;
+
+void count_taken(bool is_taken)
+{
+    n_taken = (n_taken < 0 ? 0 : n_taken) + is_taken;
+}
+
 void require_finite(const void *floats, size_t n)
 {
     const float *numbers = floats;

@@ -18,6 +18,10 @@ const char *own_path(const char *name);
 /* Writes the file, and returns its path. */
 const char *write_input(const char *name, const uint8_t *bytes, size_t size);
 
+/* Counts inputs that are taken where most are refused; replay.c fails if a whole corpus is. */
+void count_taken(bool is_taken);
+extern int n_taken; /* -1 where nobody counts */
+
 /* A copy of exactly so many bytes, so that reading past their end is seen; free it. */
 uint8_t *copy_bytes(const uint8_t *bytes, size_t size);
 
