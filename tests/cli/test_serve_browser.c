@@ -21,9 +21,10 @@
 
 static void skip_without_browser(void)
 {
-    if (FACET_HAS_WEB && FACET_CHROMIUM[0]) return;
-    print_message("skipped: %s\n", FACET_HAS_WEB ? "chromium was not found: apt-get install chromium"
-                                                 : "facet was built without civetweb");
+    const bool has_web = FACET_HAS_WEB;
+    if (has_web && FACET_CHROMIUM[0]) return;
+    print_message("skipped: %s\n",
+                  has_web ? "chromium was not found: apt-get install chromium" : "facet was built without civetweb");
     skip();
 }
 
