@@ -11,15 +11,25 @@ typedef struct light_choice {
     float weight[BLOCK];
 } light_choice;
 
+static void weigh_by_surface(light_triangle given, light_receivers to, float *restrict weights)
+{
+    EACH_LANE(i) weights[i] = light_triangle_importance(given, receiver_at(to, i));
+}
+
+static void weigh_by_place(light_triangle given, vectors from, float *restrict weights)
+{
+    EACH_LANE(i)
+    weights[i] = light_triangle_importance(given, receiver_anywhere(make3(from.x[i], from.y[i], from.z[i])));
+}
+
 static void weigh_lights(light_choice *b, uint32_t n_triangles, const light_triangle *triangles, light_receivers to,
                          bool has_receivers)
 {
     EACH_LANE(i) b->sum[i] = 0;
     for (uint32_t k = 0; k < n_triangles; k++) {
-        const light_triangle given = triangles[k];
         float *restrict const weights = b->weights[k];
-        if (has_receivers) EACH_LANE(i) weights[i] = light_triangle_importance(given, receiver_at(to, i));
-        else EACH_LANE(i) weights[i] = light_triangle_importance(given, receiver_anywhere(position_at(to, i)));
+        if (has_receivers) weigh_by_surface(triangles[k], to, weights);
+        else weigh_by_place(triangles[k], to.position, weights);
         EACH_LANE(i) b->sum[i] += weights[i];
     }
 }
@@ -110,7 +120,7 @@ static void walk_light_tree(const light_tree *tree, size_t n, light_receivers to
         const size_t some = n - first < BLOCK ? n - first : BLOCK;
         size_t open[BLOCK], n_open = 0;
         uint32_t next[BLOCK];
-        double product[BLOCK];
+        double product[BLOCK] = {0};
         light_top top;
         draw_top(tree, receivers_from(to, first), u + first, &top);
         for (size_t i = 0; i < some; i++) {

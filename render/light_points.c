@@ -184,8 +184,8 @@ static uint32_t choose_distant(const light_set *set, double *u, float *probabili
 static void choose_of_many(const light_set *set, size_t n, light_receivers to, double *u, uint32_t *which,
                            float *probability)
 {
-    float shares[LOOP_LANES];
-    uint32_t is_distant[LOOP_LANES];
+    float shares[LOOP_LANES] = {0};
+    uint32_t is_distant[LOOP_LANES] = {0};
     for (size_t i = 0; i < n; i++) {
         const light_receiver at = receiver_at(to, i);
         const float share = share_of_placed(set, &at), both[2] = {share, 1 - share};

@@ -57,7 +57,7 @@ static facet_status create_rows(sky *s)
 {
     const size_t h = s->environment->map.height;
     const float step = PI/(float)h;
-    s->rows = malloc((h + 1)*sizeof *s->rows);
+    s->rows = calloc(h + 1, sizeof *s->rows);
     if (!s->rows) return FACET_NO_MEMORY;
     for (size_t y = 0; y < h; y++)
         s->rows[y] = (sky_row){kcos(PI*(float)y/(float)h), 2*ksin(((float)y + 0.5f)*step)*ksin(0.5f*step)};
