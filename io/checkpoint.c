@@ -85,15 +85,16 @@ static void put_head(unsigned char *to, const render_state *state, uint32_t text
     }
 }
 
-/* Behind the magic and the version. */
-static void get_head(const unsigned char *from, checkpoint *c, uint32_t *text_size)
+/* Behind the magic and the version; false: a word has a value that is never written. */
+static bool get_head(const unsigned char *from, checkpoint *c, uint32_t *text_size)
 {
     render_state *state = &c->state;
     *state = (render_state){0};
     *text_size = get32(&from);
     state->film.width = get32(&from);
     state->film.height = get32(&from);
-    c->has_features = get32(&from) != 0;
+    const uint32_t features = get32(&from);
+    c->has_features = features == 1;
     state->spp = get32(&from);
     state->n_paths = get64(&from);
     state->n_rays = get64(&from);
@@ -108,6 +109,7 @@ static void get_head(const unsigned char *from, checkpoint *c, uint32_t *text_si
         state->bad[i].y = get32(&from);
         state->bad[i].sample = get32(&from);
     }
+    return features <= 1;
 }
 
 static size_t row_size(size_t width, bool has_features)
@@ -252,7 +254,8 @@ static facet_status read_head(FILE *stream, uint64_t size, checkpoint *c, uint32
     rewind(stream);
     const facet_status status = read_part(stream, "head", head, sizeof head, crc, why);
     if (status) return status;
-    get_head(version, c, text_size);
+    if (!get_head(version, c, text_size))
+        return facet_error_set(why, FACET_BAD_FILE, "", "is damaged: its head makes no sense; use another copy");
     const film *f = &c->state.film;
     if (f->width < 1 || f->height < 1 || f->width > SIDE_CAP || f->height > SIDE_CAP ||
         f->width > IMAGE_PIXEL_CAP/f->height || *text_size > TEXT_CAP)
