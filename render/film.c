@@ -90,12 +90,18 @@ static int64_t feature_units(float number, double least)
     return x >= least ? llrint(FEATURE_UNITS*(x < 1 ? x : 1)) : x < least ? llrint(FEATURE_UNITS*least) : 0;
 }
 
+/* Sums of samples are far from overflow; those of a damaged checkpoint may wrap around. */
+static int64_t wrapped_sum(int64_t a, int64_t b)
+{
+    return (int64_t)((uint64_t)a + (uint64_t)b);
+}
+
 void film_add_feature(film *f, size_t x, size_t y, const feature *seen)
 {
     film_features *p = &f->features[y*f->width + x];
     for (int k = 0; k < 3; k++) {
-        p->albedo[k] += feature_units(seen->albedo[k], 0);
-        p->normal[k] += feature_units(seen->normal[k], -1);
+        p->albedo[k] = wrapped_sum(p->albedo[k], feature_units(seen->albedo[k], 0));
+        p->normal[k] = wrapped_sum(p->normal[k], feature_units(seen->normal[k], -1));
     }
     if (seen->distance <= FILM_MOST) {
         add_number(&p->distance, UNITS*(double)seen->distance);
@@ -106,8 +112,8 @@ void film_add_feature(film *f, size_t x, size_t y, const feature *seen)
 static void merge_features(film_features *p, const film_features *q)
 {
     for (int k = 0; k < 3; k++) {
-        p->albedo[k] += q->albedo[k];
-        p->normal[k] += q->normal[k];
+        p->albedo[k] = wrapped_sum(p->albedo[k], q->albedo[k]);
+        p->normal[k] = wrapped_sum(p->normal[k], q->normal[k]);
     }
     add_sum(&p->distance, q->distance);
     p->n_hits += q->n_hits;
