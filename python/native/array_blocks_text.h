@@ -1,110 +1,161 @@
-/* array_blocks_text.h: blocks of an array in or out, for one type of number.
+/* array_blocks_text.h: an array, block by block, for one type of number.
  *
- * Included by array_loops_text.h with REAL, the type; NAME(x), a name with its suffix; and EACH_ISA, what compiles a
- * function for several instruction sets.
+ * Included by array_loops_text.h with REAL, the type; BITS, the unsigned integer of its size; NAME(x), a name with its
+ * suffix; and EACH_ISA, what compiles a function for several instruction sets.
  * SPDX-License-Identifier: MIT */
 
-/* A block of n elements of 1 or 3 parts: part[k] points to n numbers, in the array itself where they lie one after
- * another, else in `copy`. */
-typedef struct NAME(block) {
-    REAL *part[3];
+/* An array of elements of 1 or 3 parts.  Of its block at hand, part[k] points to the numbers of part k, one after
+ * another: in the array itself where they lie so, else in `copy`. */
+typedef struct NAME(window) {
+    array_layout layout;
+    int parts;
+    array_cursor at;
+    REAL *part[3], *next[3]; /* next: of ARRAY_COLUMNS */
     REAL copy[3][ARRAY_LARGEST_BLOCK];
-} NAME(block);
+} NAME(window);
 
-/* Whether the next n elements can be used where they are. */
-static int NAME(lies_straight)(const array_cursor *c, size_t n)
+/* An output that is not wanted has no layout: nobody asks for its blocks. */
+static void NAME(open_output)(NAME(window)*w, const facet_python_array *array, int parts)
+{
+    w->at = array_cursor_start(array);
+    w->parts = parts;
+    w->layout = array->data ? array_layout_of(&w->at, parts, sizeof(REAL)) : ARRAY_ANY;
+    if (w->layout == ARRAY_ONE) w->layout = ARRAY_ANY; /* the last one written counts */
+    for (int k = 0; k < parts; k++) {
+        w->part[k] = w->copy[k];
+        w->next[k] = w->layout == ARRAY_COLUMNS ? (REAL *)(void *)(w->at.at + k*w->at.component) : NULL;
+    }
+}
+
+static void NAME(open_input)(NAME(window)*w, const facet_python_array *array)
+{
+    NAME(open_output)(w, array, 3);
+    w->layout = array_layout_of(&w->at, 3, sizeof(REAL));
+    if (w->layout != ARRAY_ONE) return;
+    const size_t n = w->at.shape[0] < ARRAY_LARGEST_BLOCK ? w->at.shape[0] : ARRAY_LARGEST_BLOCK;
+    for (int k = 0; k < 3; k++)
+        for (size_t i = 0; i < n; i++) w->copy[k][i] = *(const REAL *)(const void *)(w->at.at + k*w->at.component);
+}
+
+/* A run of any strides, from and to a copy. */
+static void NAME(gather)(const array_cursor *c, size_t n, int parts, REAL copy[3][ARRAY_LARGEST_BLOCK], size_t first)
 {
     const ptrdiff_t stride = c->strides[c->n_axes - 1];
-    return array_cursor_run(c, n) == n && (stride == (ptrdiff_t)sizeof(REAL) || n == 1);
-}
-
-static void NAME(point)(NAME(block)*b, const array_cursor *c, size_t n, int parts)
-{
-    const int is_straight = NAME(lies_straight)(c, n);
-    for (int k = 0; k < parts; k++) b->part[k] = is_straight ? (REAL *)(void *)(c->at + k*c->component) : b->copy[k];
-}
-
-/* A run of triples, x, y, z after one another, or of anything. */
-EACH_ISA static void NAME(gather)(const array_cursor *c, size_t n, int parts, REAL copy[3][ARRAY_LARGEST_BLOCK],
-                                  size_t first)
-{
-    const ptrdiff_t stride = c->strides[c->n_axes - 1], size = (ptrdiff_t)sizeof(REAL);
-    if (parts == 3 && c->component == size && stride == 3*size) {
-        const REAL *from = (const REAL *)(const void *)c->at;
-        REAL *const x = copy[0] + first, *const y = copy[1] + first, *const z = copy[2] + first;
-        for (size_t i = 0; i < n; i++) {
-            x[i] = from[3*i];
-            y[i] = from[3*i + 1];
-            z[i] = from[3*i + 2];
-        }
-    } else {
-        for (int k = 0; k < parts; k++)
+    for (int k = 0; k < parts; k++) {
+        const char *const from = c->at + k*c->component;
+        if (stride == (ptrdiff_t)sizeof(REAL)) memcpy(copy[k] + first, from, n*sizeof(REAL));
+        else
             for (size_t i = 0; i < n; i++)
-                copy[k][first + i] = *(const REAL *)(const void *)(c->at + k*c->component + (ptrdiff_t)i*stride);
+                copy[k][first + i] = *(const REAL *)(const void *)(from + (ptrdiff_t)i*stride);
     }
 }
 
-EACH_ISA static void NAME(scatter)(const array_cursor *c, size_t n, int parts, REAL copy[3][ARRAY_LARGEST_BLOCK],
-                                   size_t first)
+static void NAME(scatter)(const array_cursor *c, size_t n, int parts, REAL copy[3][ARRAY_LARGEST_BLOCK], size_t first)
 {
-    const ptrdiff_t stride = c->strides[c->n_axes - 1], size = (ptrdiff_t)sizeof(REAL);
-    if (parts == 3 && c->component == size && stride == 3*size) {
-        REAL *to = (REAL *)(void *)c->at;
-        const REAL *const x = copy[0] + first, *const y = copy[1] + first, *const z = copy[2] + first;
-        for (size_t i = 0; i < n; i++) {
-            to[3*i] = x[i];
-            to[3*i + 1] = y[i];
-            to[3*i + 2] = z[i];
-        }
-    } else {
-        for (int k = 0; k < parts; k++)
-            for (size_t i = 0; i < n; i++)
-                *(REAL *)(void *)(c->at + k*c->component + (ptrdiff_t)i*stride) = copy[k][first + i];
+    const ptrdiff_t stride = c->strides[c->n_axes - 1];
+    for (int k = 0; k < parts; k++) {
+        char *const to = c->at + k*c->component;
+        for (size_t i = 0; i < n; i++) *(REAL *)(void *)(to + (ptrdiff_t)i*stride) = copy[k][first + i];
     }
 }
+
+/* Triples x, y, z after one another, from and to a copy. */
+EACH_ISA static void NAME(gather_rows)(const REAL *from, size_t n, REAL copy[3][ARRAY_LARGEST_BLOCK])
+{
+    REAL *const x = copy[0], *const y = copy[1], *const z = copy[2];
+    for (size_t i = 0; i < n; i++) {
+        x[i] = from[3*i];
+        y[i] = from[3*i + 1];
+        z[i] = from[3*i + 2];
+    }
+}
+
+EACH_ISA static void NAME(scatter_rows)(REAL *to, size_t n, REAL copy[3][ARRAY_LARGEST_BLOCK])
+{
+    const REAL *const x = copy[0], *const y = copy[1], *const z = copy[2];
+    for (size_t i = 0; i < n; i++) {
+        to[3*i] = x[i];
+        to[3*i + 1] = y[i];
+        to[3*i + 2] = z[i];
+    }
+}
+
+/* Goes on to the next n elements of columns. */
+static inline void NAME(go_on)(NAME(window)*w, size_t n)
+{
+    for (int k = 0; k < w->parts && w->layout == ARRAY_COLUMNS; k++) {
+        w->part[k] = w->next[k];
+        w->next[k] += n;
+    }
+}
+
+/* Asks for the n rows after the next n while something is computed; what lies beyond the end does no harm.  Columns
+ * come by themselves: processors foresee what one loop reads, but not what takes turns. */
+#define EXPECT_ROWS(w, n, is_write)                                                                                    \
+    for (size_t line = 0; line < 3*(n)*sizeof(REAL); line += 64)                                                       \
+    __builtin_prefetch((const void *)((uintptr_t)(w)->at.at + 3*(n)*sizeof(REAL) + line), is_write)
 
 /* The next n elements, to be read. */
-static void NAME(read_block)(NAME(block)*b, array_cursor *c, size_t n, int parts)
+static inline void NAME(read)(NAME(window)*w, size_t n)
 {
-    NAME(point)(b, c, n, parts);
-    const int is_straight = NAME(lies_straight)(c, n);
-    for (size_t done = 0; done < n;) {
-        const size_t some = array_cursor_run(c, n - done);
-        if (!is_straight) NAME(gather)(c, some, parts, b->copy, done);
-        array_cursor_advance(c, some);
-        done += some;
+    NAME(go_on)(w, n);
+    if (w->layout == ARRAY_ROWS) {
+        EXPECT_ROWS(w, n, 0);
+        NAME(gather_rows)((const REAL *)(const void *)w->at.at, n, w->copy);
+        w->at.at += 3*n*sizeof(REAL);
+    } else if (w->layout == ARRAY_ANY) {
+        for (size_t done = 0, some; done < n; done += some) {
+            some = array_cursor_run(&w->at, n - done);
+            NAME(gather)(&w->at, some, w->parts, w->copy, done);
+            array_cursor_advance(&w->at, some);
+        }
     }
 }
 
-/* Asks for the next n elements, at most one run of them, while something else is computed. */
-static void NAME(expect_block)(const array_cursor *c, size_t n)
+/* Room for the next n elements. */
+static inline void NAME(make_room)(NAME(window)*w, size_t n)
 {
-    const size_t bytes = array_cursor_run(c, n)*sizeof(REAL), line = 64;
-    const ptrdiff_t stride = c->strides[c->n_axes - 1], size = (ptrdiff_t)sizeof(REAL);
-    const int are_rows = c->component == size && stride == 3*size;
-    for (int k = 0; k < 3 && (are_rows || stride == size); k++) {
-        const char *const part = c->at + (are_rows ? k*(ptrdiff_t)bytes : k*c->component);
-        for (size_t at = 0; at < bytes; at += line) __builtin_prefetch(part + at);
-    }
+    NAME(go_on)(w, n);
+    if (w->layout == ARRAY_ROWS) EXPECT_ROWS(w, n, 1);
 }
 
-/* What was written to part[] since NAME(point) goes where it belongs. */
-static void NAME(write_block)(NAME(block)*b, array_cursor *c, size_t n, int parts)
+/* What is in that room now goes where it belongs. */
+static inline void NAME(write)(NAME(window)*w, size_t n)
 {
-    const int is_straight = NAME(lies_straight)(c, n);
-    for (size_t done = 0; done < n;) {
-        const size_t some = array_cursor_run(c, n - done);
-        if (!is_straight) NAME(scatter)(c, some, parts, b->copy, done);
-        array_cursor_advance(c, some);
-        done += some;
+    if (w->layout == ARRAY_ROWS) {
+        NAME(scatter_rows)((REAL *)(void *)w->at.at, n, w->copy);
+        w->at.at += 3*n*sizeof(REAL);
+    } else if (w->layout == ARRAY_ANY) {
+        for (size_t done = 0, some; done < n; done += some) {
+            some = array_cursor_run(&w->at, n - done);
+            NAME(scatter)(&w->at, some, w->parts, w->copy, done);
+            array_cursor_advance(&w->at, some);
+        }
     }
+}
+#undef EXPECT_ROWS
+
+/* ---- Whether inputs are what they must be ------------------------------------------------------ */
+
+/* |x| as an integer, which has the order of numbers, NaN above all. */
+static inline BITS NAME(magnitude)(REAL x)
+{
+    const union {
+        REAL x;
+        BITS bits;
+    } u = {x};
+    return u.bits & ((BITS)-1 >> 1);
+}
+
+/* How far |w|^2 is from 1. */
+static inline BITS NAME(excess)(REAL x, REAL y, REAL z)
+{
+    return NAME(magnitude)(x*x + y*y + z*z - 1);
 }
 
 static int NAME(is_unit)(REAL x, REAL y, REAL z)
 {
-    const REAL excess = x*x + y*y + z*z - 1;
-    const REAL size = excess < 0 ? -excess : excess;
-    return size <= (REAL)FACET_PYTHON_UNIT; /* false for NaN, too */
+    return NAME(excess)(x, y, z) <= NAME(magnitude)((REAL)FACET_PYTHON_UNIT);
 }
 
 static int NAME(is_in_cube)(REAL x, REAL y, REAL z)
@@ -112,19 +163,28 @@ static int NAME(is_in_cube)(REAL x, REAL y, REAL z)
     return (x >= 0) & (x < 1) & (y >= 0) & (y < 1) & (z >= 0) & (z < 1);
 }
 
-/* Whether all are unit vectors; of two arrays at once, since each start of a loop costs. */
-EACH_ISA static int NAME(are_units)(const NAME(block)*a, const NAME(block)*b, size_t n)
+/* The largest excess of two blocks of directions; of two at once, since each start of a loop costs. */
+EACH_ISA static BITS NAME(largest_excess)(const NAME(window)*a, const NAME(window)*b, size_t n)
 {
     const REAL *const x = a->part[0], *const y = a->part[1], *const z = a->part[2];
     const REAL *const u = b->part[0], *const v = b->part[1], *const w = b->part[2];
-    int are_units = 1;
-#pragma omp simd reduction(& : are_units)
-    for (size_t i = 0; i < n; i++) are_units &= NAME(is_unit)(x[i], y[i], z[i]) & NAME(is_unit)(u[i], v[i], w[i]);
-    return are_units;
+    BITS largest = 0;
+#pragma omp simd reduction(max : largest)
+    for (size_t i = 0; i < n; i++) {
+        const BITS p = NAME(excess)(x[i], y[i], z[i]), q = NAME(excess)(u[i], v[i], w[i]);
+        const BITS larger = p > q ? p : q;
+        largest = larger > largest ? larger : largest;
+    }
+    return largest;
+}
+
+static int NAME(are_units)(const NAME(window)*a, const NAME(window)*b, size_t n)
+{
+    return NAME(largest_excess)(a, b, n) <= NAME(magnitude)((REAL)FACET_PYTHON_UNIT);
 }
 
 /* Whether those of `a` are unit vectors, and those of `b` in the unit cube. */
-EACH_ISA static int NAME(are_units_and_in_cube)(const NAME(block)*a, const NAME(block)*b, size_t n)
+EACH_ISA static int NAME(are_units_and_in_cube)(const NAME(window)*a, const NAME(window)*b, size_t n)
 {
     const REAL *const x = a->part[0], *const y = a->part[1], *const z = a->part[2];
     const REAL *const u = b->part[0], *const v = b->part[1], *const w = b->part[2];
@@ -136,11 +196,11 @@ EACH_ISA static int NAME(are_units_and_in_cube)(const NAME(block)*a, const NAME(
 
 /* Names the first element that is not what is_right wants, of those at elements first, first + 1, ...; false if there
  * is one. */
-static int NAME(tell)(const NAME(block)*b, int (*is_right)(REAL, REAL, REAL), size_t n, size_t first, int argument,
+static int NAME(tell)(const NAME(window)*w, int (*is_right)(REAL, REAL, REAL), size_t n, size_t first, int argument,
                       facet_python_fault *fault)
 {
     for (size_t i = 0; i < n; i++) {
-        const REAL x = b->part[0][i], y = b->part[1][i], z = b->part[2][i];
+        const REAL x = w->part[0][i], y = w->part[1][i], z = w->part[2][i];
         if (is_right(x, y, z)) continue;
         *fault = (facet_python_fault){argument, first + i, {x, y, z}};
         return 0;

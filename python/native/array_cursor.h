@@ -10,11 +10,6 @@
 extern "C" {
 #endif
 
-/* Elements that are handled at a time, so that a block stays in the first cache while the next one is on its way from
- * memory.  512 take ggx half as long again with rows.  Samples are drawn in larger blocks, since the library's batches
- * prepare each for longer. */
-enum { ARRAY_BLOCK = 128, ARRAY_SAMPLE_BLOCK = 256, ARRAY_LARGEST_BLOCK = ARRAY_SAMPLE_BLOCK };
-
 typedef struct array_cursor {
     char *at; /* the next element */
     ptrdiff_t component;

@@ -2,7 +2,10 @@
  * SPDX-License-Identifier: MIT */
 #include "array_loops.h"
 
-#include "array_cursor.h"
+#include <stdint.h>
+#include <string.h>
+
+#include "array_layout.h"
 
 /* Moving and checking numbers takes as long as evaluating ggx, unless by the widest registers; the loader picks. */
 #if defined(__x86_64__) && defined(__gnu_linux__)
@@ -12,6 +15,7 @@
 #endif
 
 #define REAL float
+#define BITS uint32_t
 #define NAME(x) x##_f32
 #define PUBLIC(x) facet_python_##x
 #define BSDF facet_bsdf
@@ -21,6 +25,7 @@
 #define HAS_BATCHES 1
 #include "array_loops_text.h"
 #undef REAL
+#undef BITS
 #undef NAME
 #undef PUBLIC
 #undef BSDF
@@ -30,6 +35,7 @@
 #undef HAS_BATCHES
 
 #define REAL double
+#define BITS uint64_t
 #define NAME(x) x##_f64
 #define PUBLIC(x) facet_python_##x##64
 #define BSDF facet_bsdf64

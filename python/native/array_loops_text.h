@@ -1,14 +1,15 @@
 /* array_loops_text.h: the loops of array_loops.h for one type of number.
  *
- * Included by array_loops.c with REAL; NAME(x) and PUBLIC(x), names with the type's suffix; BSDF and SAMPLE and TERMS,
- * types of facet.h; BSDF_CALL(x), a function of facet.h; HAS_BATCHES, whether there are batch functions of this type.
+ * Included by array_loops.c with REAL, and BITS, the unsigned integer of its size; NAME(x) and PUBLIC(x), names with
+ * the type's suffix; BSDF and SAMPLE and TERMS, types of facet.h; BSDF_CALL(x), a function of facet.h; HAS_BATCHES,
+ * whether there are batch functions of this type.
  * SPDX-License-Identifier: MIT */
 #include "array_blocks_text.h"
 
 /* ---- What is computed for one block ------------------------------------------------------------ */
 
-static void NAME(eval_block)(const BSDF *bsdf, size_t n, const NAME(block)*wi, const NAME(block)*wo,
-                             NAME(block)*f, NAME(block)*pdf)
+static void NAME(eval_block)(const BSDF *bsdf, size_t n, const NAME(window)*wi, const NAME(window)*wo,
+                             NAME(window)*f, NAME(window)*pdf)
 {
 #if HAS_BATCHES
     const facet_dirs i = {wi->part[0], wi->part[1], wi->part[2]}, o = {wo->part[0], wo->part[1], wo->part[2]};
@@ -31,8 +32,8 @@ static void NAME(eval_block)(const BSDF *bsdf, size_t n, const NAME(block)*wi, c
 }
 
 /* lobe and eta may be NULL, both or neither. */
-static void NAME(sample_block)(const BSDF *bsdf, size_t n, const NAME(block)*wo, const NAME(block)*u,
-                               NAME(block)*wi, NAME(block)*pdf, NAME(block)*weight, NAME(block)*eta,
+static void NAME(sample_block)(const BSDF *bsdf, size_t n, const NAME(window)*wo, const NAME(window)*u,
+                               NAME(window)*wi, NAME(window)*pdf, NAME(window)*weight, NAME(window)*eta,
                                int32_t *lobe)
 {
 #if HAS_BATCHES
@@ -59,8 +60,8 @@ static void NAME(sample_block)(const BSDF *bsdf, size_t n, const NAME(block)*wo,
     }
 }
 
-static void NAME(terms_block)(const BSDF *bsdf, size_t n, const NAME(block)*m, NAME(block)*D, NAME(block)*Lambda,
-                              NAME(block)*G1)
+static void NAME(terms_block)(const BSDF *bsdf, size_t n, const NAME(window)*m, NAME(window)*D,
+                              NAME(window)*Lambda, NAME(window)*G1)
 {
     for (size_t k = 0; k < n; k++) {
         const REAL v[3] = {m->part[0][k], m->part[1][k], m->part[2][k]};
@@ -85,14 +86,14 @@ static void NAME(terms_block)(const BSDF *bsdf, size_t n, const NAME(block)*m, N
  * time that memory takes: float kernels look nothing up, so that any numbers are safe.  Double ones do. */
 #define CHECKS_FIRST (!HAS_BATCHES)
 
-static int NAME(check_pair)(const NAME(block)*wi, const NAME(block)*wo, size_t n, size_t first,
+static int NAME(check_pair)(const NAME(window)*wi, const NAME(window)*wo, size_t n, size_t first,
                             facet_python_fault *fault)
 {
     return NAME(are_units)(wi, wo, n) ||
            (NAME(tell)(wi, NAME(is_unit), n, first, 1, fault) && NAME(tell)(wo, NAME(is_unit), n, first, 2, fault));
 }
 
-static int NAME(check_draw)(const NAME(block)*wo, const NAME(block)*u, size_t n, size_t first,
+static int NAME(check_draw)(const NAME(window)*wo, const NAME(window)*u, size_t n, size_t first,
                             facet_python_fault *fault)
 {
     return NAME(are_units_and_in_cube)(wo, u, n) ||
@@ -102,20 +103,23 @@ static int NAME(check_draw)(const NAME(block)*wo, const NAME(block)*u, size_t n,
 int PUBLIC(eval)(const BSDF *bsdf, size_t n, const facet_python_array *wi, const facet_python_array *wo,
                  const facet_python_array *f, const facet_python_array *pdf, facet_python_fault *fault)
 {
-    array_cursor at_wi = array_cursor_start(wi), at_wo = array_cursor_start(wo), at_f = array_cursor_start(f),
-                 at_pdf = array_cursor_start(pdf);
-    NAME(block) i, o, value, density;
-    EACH_BLOCK(n, ARRAY_BLOCK)
+    const size_t size = f->data ? ARRAY_BLOCK : ARRAY_LARGEST_BLOCK;
+    NAME(window) i, o, value, density;
+    NAME(open_input)(&i, wi);
+    NAME(open_input)(&o, wo);
+    NAME(open_output)(&value, f, 3);
+    NAME(open_output)(&density, pdf, 1);
+    EACH_BLOCK(n, size)
     {
-        NAME(read_block)(&i, &at_wi, some, 3);
-        NAME(read_block)(&o, &at_wo, some, 3);
+        NAME(read)(&i, some);
+        NAME(read)(&o, some);
         if (CHECKS_FIRST && !NAME(check_pair)(&i, &o, some, first, fault)) return 0;
-        if (f->data) NAME(point)(&value, &at_f, some, 3);
-        if (pdf->data) NAME(point)(&density, &at_pdf, some, 1);
+        if (f->data) NAME(make_room)(&value, some);
+        if (pdf->data) NAME(make_room)(&density, some);
         NAME(eval_block)(bsdf, some, &i, &o, f->data ? &value : NULL, pdf->data ? &density : NULL);
         if (!CHECKS_FIRST && !NAME(check_pair)(&i, &o, some, first, fault)) return 0;
-        if (f->data) NAME(write_block)(&value, &at_f, some, 3);
-        if (pdf->data) NAME(write_block)(&density, &at_pdf, some, 1);
+        if (f->data) NAME(write)(&value, some);
+        if (pdf->data) NAME(write)(&density, some);
     }
     return 1;
 }
@@ -123,29 +127,33 @@ int PUBLIC(eval)(const BSDF *bsdf, size_t n, const facet_python_array *wi, const
 int PUBLIC(sample)(const BSDF *bsdf, size_t n, const facet_python_array *wo, const facet_python_array *u,
                    const facet_python_samples *samples, facet_python_fault *fault)
 {
-    array_cursor at_wo = array_cursor_start(wo), at_u = array_cursor_start(u), at_wi = array_cursor_start(&samples->wi),
-                 at_pdf = array_cursor_start(&samples->pdf), at_weight = array_cursor_start(&samples->weight),
-                 at_lobe = array_cursor_start(&samples->lobe), at_eta = array_cursor_start(&samples->eta);
     const int has_lobes = samples->lobe.data != NULL;
-    NAME(block) o, x, i, density, weight, eta;
-    int32_t lobe[ARRAY_SAMPLE_BLOCK] = {0};
-    EACH_BLOCK(n, ARRAY_SAMPLE_BLOCK)
+    array_cursor at_lobe = array_cursor_start(&samples->lobe);
+    NAME(window) o, x, i, density, weight, eta;
+    NAME(open_input)(&o, wo);
+    NAME(open_input)(&x, u);
+    NAME(open_output)(&i, &samples->wi, 3);
+    NAME(open_output)(&density, &samples->pdf, 1);
+    NAME(open_output)(&weight, &samples->weight, 3);
+    NAME(open_output)(&eta, &samples->eta, 1);
+    const size_t size = o.layout == ARRAY_ROWS || i.layout == ARRAY_ROWS ? ARRAY_BLOCK : ARRAY_LARGEST_BLOCK;
+    int32_t lobe[ARRAY_LARGEST_BLOCK] = {0};
+    EACH_BLOCK(n, size)
     {
-        NAME(read_block)(&o, &at_wo, some, 3);
-        NAME(read_block)(&x, &at_u, some, 3);
+        NAME(read)(&o, some);
+        NAME(read)(&x, some);
         if (CHECKS_FIRST && !NAME(check_draw)(&o, &x, some, first, fault)) return 0;
-        NAME(expect_block)(&at_u, some); /* the kernels leave parts of u alone, which the check then waits for */
-        NAME(point)(&i, &at_wi, some, 3);
-        NAME(point)(&density, &at_pdf, some, 1);
-        NAME(point)(&weight, &at_weight, some, 3);
-        if (has_lobes) NAME(point)(&eta, &at_eta, some, 1);
+        NAME(make_room)(&i, some);
+        NAME(make_room)(&density, some);
+        NAME(make_room)(&weight, some);
+        if (has_lobes) NAME(make_room)(&eta, some);
         NAME(sample_block)(bsdf, some, &o, &x, &i, &density, &weight, &eta, has_lobes ? lobe : NULL);
         if (!CHECKS_FIRST && !NAME(check_draw)(&o, &x, some, first, fault)) return 0;
-        NAME(write_block)(&i, &at_wi, some, 3);
-        NAME(write_block)(&density, &at_pdf, some, 1);
-        NAME(write_block)(&weight, &at_weight, some, 3);
+        NAME(write)(&i, some);
+        NAME(write)(&density, some);
+        NAME(write)(&weight, some);
         if (!has_lobes) continue;
-        NAME(write_block)(&eta, &at_eta, some, 1);
+        NAME(write)(&eta, some);
         for (size_t k = 0; k < some; k++, array_cursor_advance(&at_lobe, 1)) *(int32_t *)(void *)at_lobe.at = lobe[k];
     }
     return 1;
@@ -155,19 +163,19 @@ int PUBLIC(terms)(const BSDF *bsdf, size_t n, const facet_python_array *m, const
                   const facet_python_array *Lambda, const facet_python_array *G1, facet_python_fault *fault)
 {
     const facet_python_array *const outputs[3] = {D, Lambda, G1};
-    array_cursor at_m = array_cursor_start(m), at[3];
-    for (int k = 0; k < 3; k++) at[k] = array_cursor_start(outputs[k]);
-    NAME(block) v, values[3];
+    NAME(window) v, values[3];
+    NAME(open_input)(&v, m);
+    for (int k = 0; k < 3; k++) NAME(open_output)(&values[k], outputs[k], 1);
     EACH_BLOCK(n, ARRAY_BLOCK)
     {
-        NAME(read_block)(&v, &at_m, some, 3);
+        NAME(read)(&v, some);
         if (!NAME(tell)(&v, NAME(is_unit), some, first, 1, fault)) return 0;
         for (int k = 0; k < 3; k++)
-            if (outputs[k]->data) NAME(point)(&values[k], &at[k], some, 1);
+            if (outputs[k]->data) NAME(make_room)(&values[k], some);
         NAME(terms_block)
         (bsdf, some, &v, D->data ? &values[0] : NULL, Lambda->data ? &values[1] : NULL, G1->data ? &values[2] : NULL);
         for (int k = 0; k < 3; k++)
-            if (outputs[k]->data) NAME(write_block)(&values[k], &at[k], some, 1);
+            if (outputs[k]->data) NAME(write)(&values[k], some);
     }
     return 1;
 }

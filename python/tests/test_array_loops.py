@@ -4,6 +4,8 @@ SPDX-License-Identifier: MIT
 """
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 import pytest
 from conftest import some_materials, unit_vectors
@@ -125,6 +127,42 @@ def test_blocks_meet_without_a_seam(data: st.DataObject, n: int) -> None:
     u = rng.random((n // inner, inner, 3), np.float32)
     weights = np.concatenate([m.sample(wo[k:k + 1], u[k:k + 1]).weight for k in range(n // inner)])
     np.testing.assert_array_equal(m.sample(gapped, u).weight, weights)
+
+
+@pytest.mark.parametrize("dtype", [np.float32, np.float64])
+@pytest.mark.parametrize("n", [1, 128, 256, 257, 1000])
+def test_one_direction_goes_with_many(n: int, dtype: type) -> None:
+    rng = np.random.default_rng(n)
+    many, one = unit_vectors(rng, n, dtype, above=True), unit_vectors(rng, 1, dtype, above=True)[0]
+    copies, u = np.tile(one, (n, 1)), rng.random((n, 3), dtype)
+    m = facet.ggx(alpha=0.4)
+    for got, expected in ((m.eval(many, one), m.eval(many, copies)), (m.pdf(one, many), m.pdf(copies, many)),
+                          (m.sample(one, u).wi, m.sample(copies, u).wi)):
+        assert got.any()
+        np.testing.assert_array_equal(got, expected)
+
+
+def test_an_output_that_is_one_number_holds_the_last() -> None:
+    rng = np.random.default_rng(4)
+    wi, wo = unit_vectors(rng, 300, above=True), unit_vectors(rng, 300, above=True)
+    m, out = facet.ggx(), np.lib.stride_tricks.as_strided(np.zeros(1, np.float32), (300,), (0,))
+    assert m.pdf(wi, wo, out=out)[0] == m.pdf(wi, wo)[-1]
+
+
+@pytest.mark.parametrize("place", [0, 127, 128, 300, 999])
+@pytest.mark.parametrize("lay", [np.ascontiguousarray, np.asfortranarray, lambda a: np.repeat(a, 2, axis=0)[::2]])
+def test_a_fault_is_found_in_any_block(lay: Callable[[np.ndarray], np.ndarray], place: int) -> None:
+    good = unit_vectors(np.random.default_rng(place), 1000)
+    bad = good.copy()
+    bad[place:, 1] += 0.5
+    bad, m = lay(bad), facet.lambert()
+    for call in (lambda: m.eval(bad, good), lambda: m.pdf(bad, good), lambda: m.eval_pdf(bad, [0, 0, 1])):
+        with pytest.raises(ValueError, match=rf"wi\[{place}\] is "):
+            call()
+    u = np.full((1000, 3), 0.5, np.float32)
+    u[place, 2] = 1
+    with pytest.raises(ValueError, match=rf"u\[{place}\] is "):
+        m.sample(good, lay(u))
 
 
 def test_a_fault_is_named_where_it_is() -> None:
