@@ -5,9 +5,13 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+/* A macro's value as text. */
+#define TEXT_OF(number) #number
+#define VERSION_TEXT(major, minor, patch) TEXT_OF(major) "." TEXT_OF(minor) "." TEXT_OF(patch)
+
 const char *facet_version(void)
 {
-    return "0.1.0";
+    return VERSION_TEXT(FACET_VERSION_MAJOR, FACET_VERSION_MINOR, FACET_VERSION_PATCH);
 }
 
 const char *facet_status_string(facet_status status)

@@ -75,6 +75,8 @@ facet_status draw_samples(canvas *page, box place, const figure *f, facet_error 
     char note[128];
     snprintf(note, sizeof note, "%" PRIu64 " directions ω_i seen from above%s, %" PRIu64 " without a sample",
              f->n_samples, has_two_sides ? " (below: orange)" : "", n_lost);
+    const double width = canvas_text_width(page, style, note), room = place.width - em;
+    if (width > room) style.size *= room/width;
     canvas_text(page, (point){place.x + 0.5*place.width, centre.y + radius + 1.6*em}, style, note);
     return FACET_OK;
 }
