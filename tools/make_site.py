@@ -119,6 +119,49 @@ def version(root):
     return re.search(r"project\(facet VERSION ([0-9.]+)", tree.read(root, "CMakeLists.txt")).group(1)
 
 
+def completed_style(style):
+    """furo.css with what Debian's build of it lacks: the reset of browsers' margins and fonts, which it looks for at the root
+    of a server, and dark colours where the browser, not the reader's click, asks for them."""
+    reset = ("html { line-height: 1.15; -webkit-text-size-adjust: 100%; }\nbody { margin: 0; }\n"
+             "pre, code, kbd, samp { font-size: 1em; }\nimg { border-style: none; }\n"
+             "button, input { font: inherit; margin: 0; overflow: visible; }\n")
+    style = re.sub(r"@import url\(/javascript/normalize\.css/normalize\.css\);\n?", reset, style)
+    if "prefers-color-scheme" in style:
+        return style
+    colours = re.search(r'body\[data-theme="dark"\] \{([^{}]*--color-background-primary[^{}]*)\}', style)
+    if not colours:
+        raise ValueError("furo.css: has no colours for the dark")
+    return (f"{style}\n@media not print {{\n@media (prefers-color-scheme: dark) {{\n"
+            f'body:not([data-theme="light"]) {{{colours[1]}}}\n}}\n}}\n')
+
+
+def completed_script(script, gumshoe):
+    """furo.js, which Debian leaves in parts, with the part that it imports: a page's script cannot import, so that nothing of
+    it would run, and no button would switch between light and dark."""
+    alone = re.sub(r'^import Gumshoe from "\./gumshoe-patched\.js";\n', "", script)
+    return script if alone == script else f"{gumshoe}\n{alone}"
+
+
+def complete_theme(folder):
+    """Makes the theme whole, where a distribution has taken it apart."""
+    def path(*names):
+        return os.path.join(folder, "_static", *names)
+
+    def change(name, changed):
+        with open(name, encoding="utf-8") as stream:
+            text = stream.read()
+        with open(name, "w", encoding="utf-8") as stream:
+            stream.write(changed(text))
+
+    change(path("styles", "furo.css"), completed_style)
+    gumshoe = path("scripts", "gumshoe-patched.js")
+    if os.path.exists(gumshoe):
+        with open(gumshoe, encoding="utf-8") as stream:
+            part = stream.read()
+        change(path("scripts", "furo.js"), lambda script: completed_script(script, part))
+        os.remove(gumshoe)
+
+
 def build(root, program, folder):
     source = os.path.join(root, "build", "site-source")
     lay_out(root, program, source)
@@ -129,6 +172,7 @@ def build(root, program, folder):
         env={**os.environ, "FACET_VERSION": version(root), "PYTHONDONTWRITEBYTECODE": "1"})
     if done.returncode:
         return ["the site was not built without a warning"]
+    complete_theme(folder)
     return check_links.check_site(folder)
 
 

@@ -35,7 +35,7 @@ class Figure(NamedTuple):
 
 FIGURES = [
     Figure("lights", [("many_lights_by_power.csv", "by power", "#c0392b"), ("many_lights.csv", "tree", "#1f6fb2")],
-           (1, 5), (-1, 3)),
+           (1, 5), (-2, 3)),
     Figure("triangles", [("many_triangles.csv", "", "#1f6fb2")], (4, 7), (2, 4)),
 ]
 

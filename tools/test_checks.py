@@ -21,6 +21,7 @@ import check_names
 import check_spelling
 import check_symbols
 import check_text
+import check_version
 import command_pages
 import format as layout
 import header_pages
@@ -256,6 +257,22 @@ class Site(CheckTest):
         self.assertIn(":caption: B\n\nTwo words <docs/a>\n", made)
         self.assertNotIn("<x>", made)
 
+    def test_theme_is_dark_where_the_browser_asks(self):
+        dark = '@media not print {\n  body[data-theme="dark"] {\n    --color-background-primary: #111; }\n}\n'
+        made = make_site.completed_style("@import url(/javascript/normalize.css/normalize.css);\n" + dark)
+        self.assertNotIn("@import", made)
+        self.assertIn("body { margin: 0; }", made)
+        self.assertIn('body:not([data-theme="light"]) {\n    --color-background-primary: #111; }', made)
+        self.assertEqual(made.count("{"), made.count("}"))
+        self.assertEqual(make_site.completed_style(made), made)
+        with self.assertRaisesRegex(ValueError, "no colours"):
+            make_site.completed_style("body { margin: 0; }")
+
+    def test_script_of_the_theme_is_whole(self):
+        script = 'import Gumshoe from "./gumshoe-patched.js";\nmain();\n'
+        self.assertEqual(make_site.completed_script(script, "part();"), "part();\nmain();\n")
+        self.assertEqual(make_site.completed_script("main();\n", "part();"), "main();\n")
+
     def test_header_becomes_a_page(self):
         header = ("/* a.h: what it is, docs/b.md.\n * SPDX */\n#pragma once\n\n#define FACET_PLUGIN FACET_API\n\n"
                   "/* ---- Part ---- */\n\n/* Gives `n` of facet_b. */\n"
@@ -356,6 +373,50 @@ class Symbols(CheckTest):
 
     def test_declared_and_missing(self):
         self.assert_one(self.build("int facet_two;"), "facet_one is declared")
+
+
+class Version(CheckTest):
+    def setUp(self):
+        super().setUp()
+        self.write("CMakeLists.txt", "project(facet VERSION 1.2.3 LANGUAGES C)\n")
+        self.header("1.2.3", 3)
+        self.write("CHANGELOG.md", "# Changes\n\n## 1.2.3, 2030-01-31\n\n## 1.2.2, 2030-01-01\n")
+        self.write("packaging/debian/changelog", "facet (1.2.3) unstable; urgency=medium\n")
+
+    def header(self, comment, patch):
+        self.write("include/facet/facet.h", "#define FACET_VERSION_MAJOR 1\n#define FACET_VERSION_MINOR 2\n"
+                   f'#define FACET_VERSION_PATCH {patch}\n/* "{comment}"; static storage. */\n')
+
+    def test_one_version_passes(self):
+        self.assertEqual(check_version.check(self.root), [])
+
+    def test_next_version_is_begun(self):
+        self.write("CHANGELOG.md", "## 1.3.0, not released\n\n## 1.2.3, 2030-01-31\n")
+        self.assertEqual(check_version.check(self.root), [])
+
+    def test_old_package(self):
+        self.write("packaging/debian/changelog", "facet (1.2.2) unstable; urgency=medium\n")
+        self.assert_one(check_version.check(self.root), "packaging/debian/changelog: has version 1.2.2")
+
+    def test_old_macros(self):
+        self.header("1.2.3", 2)
+        self.assert_one(check_version.check(self.root), "its macros say 1.2.2")
+
+    def test_old_comment(self):
+        self.header("1.2.2", 3)
+        self.assert_one(check_version.check(self.root), "facet.h: has version 1.2.2")
+
+    def test_release_that_the_changes_do_not_know(self):
+        self.write("CHANGELOG.md", "## 1.2.2, 2030-01-01\n")
+        self.assert_one(check_version.check(self.root), "the newest release is 1.2.2")
+
+    def test_release_without_a_date(self):
+        self.write("CHANGELOG.md", "## 1.2.3\n")
+        self.assert_one(check_version.check(self.root), "no heading")
+
+    def test_wrong_order(self):
+        self.write("CHANGELOG.md", "## 1.2.3, 2030-01-31\n\n## 1.2.4, 2030-02-01\n")
+        self.assert_one(check_version.check(self.root), "comes first")
 
 
 class Layout(unittest.TestCase):
