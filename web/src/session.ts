@@ -5,10 +5,12 @@ import { createContext } from "preact";
 import { useContext } from "preact/hooks";
 import type { Brdf } from "./brdf/brdf";
 import { loadFit } from "./brdf/fits";
-import type { Opened } from "./brdf/opened";
+import { environmentMap, type Environment, type EnvironmentName } from "./brdf/environment";
+import type { MaterialFile, Opened } from "./brdf/opened";
 import { ShaderBrdf } from "./brdf/shader_brdf";
 import { SpecError, type Facet } from "./facet/library";
-import type { Entry } from "./state/state";
+import { shapeOf, type Shape, type ShapeName } from "./gl/shapes";
+import { nextId, type Entry, type State } from "./state/state";
 import type { Store } from "./state/store";
 import type { Theme } from "./state/theme";
 
@@ -16,7 +18,9 @@ export type Resolved =
   { readonly brdf: Brdf; readonly problem?: undefined } | { readonly problem: string; readonly brdf?: undefined };
 
 export class Session {
-  private readonly files = new Map<string, Opened>();
+  private readonly files = new Map<string, MaterialFile>();
+  private readonly lights = new Map<string, Environment>();
+  private readonly shapes = new Map<string, Shape>();
   private readonly variants = new Map<string, ShaderBrdf>();
   private readonly fits = new Map<string, Resolved>();
 
@@ -26,16 +30,49 @@ export class Session {
     readonly store: Store,
   ) {}
 
-  /** The text of an entry for it: "file:NAME ...". */
-  addFile(opened: Opened): string {
-    const name = opened instanceof ShaderBrdf ? opened.settings.model.name : opened.name;
-    this.files.set(name, opened);
+  /** Shows what was opened: a material is one more, light and objects take the place of what is there. */
+  show(opened: Opened): void {
+    const { store } = this,
+      { state } = store;
+    if (opened.is !== "material") {
+      const isLight = opened.is === "light",
+        text = `file:${opened.name}`,
+        view = isLight && state.view === "traced" ? "traced" : "object";
+      if (isLight) this.lights.set(opened.name, opened.environment);
+      else this.shapes.set(opened.name, opened.shape);
+      store.step(isLight ? { environment: text, view } : { object: text, view });
+      store.tell();
+      return;
+    }
+    const { brdf } = opened,
+      { text } = brdf,
+      id = nextId(state);
+    this.files.set(brdf instanceof ShaderBrdf ? brdf.settings.model.name : brdf.name, brdf);
     this.variants.clear();
-    return opened.text;
+    // Dropped again: entries that wait for it find it.
+    if (state.entries.some(entry => entry.text === text)) store.tell();
+    else store.step({ entries: [...state.entries, { id, text, isHidden: false }], selected: id });
   }
 
-  file(name: string): Opened | undefined {
+  file(name: string): MaterialFile | undefined {
     return this.files.get(name);
+  }
+
+  /** Undefined for a file that is not there any more. */
+  environment({ environment: name }: State): Environment | undefined {
+    return name.startsWith("file:") ? this.lights.get(name.slice(5)) : environmentMap(name as EnvironmentName);
+  }
+
+  shape({ object: name }: State): Shape | undefined {
+    return name.startsWith("file:") ? this.shapes.get(name.slice(5)) : shapeOf(name as ShapeName);
+  }
+
+  /** The choices of a menu: those made here, those that were opened, and one that is missing. */
+  choices(made: readonly string[], of: "environment" | "object", state: State): (readonly [string, string])[] {
+    const opened = [...(of === "environment" ? this.lights : this.shapes).keys()].map(name => `file:${name}`),
+      all = [...made, ...opened];
+    if (!all.includes(state[of])) all.push(state[of]);
+    return all.map(name => [name, name.replace(/^file:/, "")] as const);
   }
 
   private resolveFile(text: string): Resolved {

@@ -9,7 +9,9 @@ import { dirname, join } from "node:path";
 import { after, before, test } from "node:test";
 import { fileURLToPath } from "node:url";
 import { launch, open, screenshot, serve } from "./browser.mjs";
-import { facet } from "./materials.mjs";
+import { exr, hdr, mit, PYRAMID } from "./made_files.mjs";
+import { facet, sphereDirections } from "./materials.mjs";
+import { modules } from "./modules.mjs";
 
 const root = join(dirname(fileURLToPath(import.meta.url)), "..", "..");
 const program = process.env.FACET_PROGRAM ?? "build/dev/facet";
@@ -127,6 +129,10 @@ const BAD = {
   "sizes.binary": ["123456789012345", /its sizes are/],
   "alone.bparam": ["bparam /a/b.brdf\n", /belongs to b\.brdf: drop that file first/],
   "picture.jpg": ["JFIF", /is none of \.brdf/],
+  "huge.hdr": ["#?RADIANCE\n\n-Y 100000 +X 200000\n", /huge\.hdr: has 200000 x 100000 pixels; 16384 x 8192/],
+  "short.exr": ["v/1", /short\.exr: is no OpenEXR file/],
+  "empty.obj": ["# nothing\n", /empty\.obj: has no faces/],
+  "short.dat": ["1234", /short\.dat: has 4 bytes/],
 };
 
 test("a bad file gets a message and nothing else", async () => {
@@ -169,6 +175,168 @@ test("a dropped MERL file is measured data beside the models", async () => {
   await page.getByRole("tab", { name: "Sphere" }).click();
   await page.locator("canvas[data-is-done=true]").waitFor({ timeout: 120000 });
   await screenshot(page, "merl-sphere");
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
+/** A drop onto the page, as a file manager makes it. */
+async function dropped(page, name, bytes) {
+  const transfer = await page.evaluateHandle(
+    ([name, base64]) => {
+      const data = new DataTransfer();
+      data.items.add(new File([Uint8Array.from(atob(base64), c => c.charCodeAt(0))], name));
+      return data;
+    },
+    [name, Buffer.from(bytes).toString("base64")],
+  );
+  await page.dispatchEvent("body", "dragover", { dataTransfer: transfer });
+  await page.waitForSelector(".drop-here");
+  await page.dispatchEvent("body", "drop", { dataTransfer: transfer });
+}
+
+/** The mean of the opaque pixels of an object, red, green, blue, linear, once there are n samples. */
+async function meanColour(page, n) {
+  await page.waitForFunction(least => Number(document.querySelector(".figure canvas")?.dataset.samples) >= least, n, {
+    timeout: 120000,
+  });
+  return page.evaluate(() => {
+    const from = document.querySelector(".figure canvas"),
+      copy = new OffscreenCanvas(from.width, from.height).getContext("2d");
+    copy.drawImage(from, 0, 0);
+    const { data } = copy.getImageData(0, 0, from.width, from.height),
+      sums = [0, 0, 0, 0];
+    for (let i = 0; i < data.length; i += 4)
+      if (data[i + 3] === 255) {
+        for (let c = 0; c < 3; c++) sums[c] += (data[i + c] / 255) ** 2.2;
+        sums[3]++;
+      }
+    return sums.map(sum => sum / sums[3]);
+  });
+}
+
+const SMALL = { width: 400, height: 700 };
+
+test("dropped light and objects are seen, and asked for where they are gone", async () => {
+  const state = "view=curves&exposure=-1&sampling=material&m=lambert+kd%3D1";
+  const { page, complaints, close } = await open(browser, site.address, state, { size: SMALL });
+  await dropped(
+    page,
+    "red.hdr",
+    hdr(32, 16, () => [1, 0.5, 0.25], { coding: "new" }),
+  );
+  await page.waitForFunction(() => location.hash.includes("environment=file%3Ared.hdr"));
+  assert.equal(await page.locator("#tab-object").getAttribute("aria-selected"), "true");
+  const [r, g, b] = await meanColour(page, 4);
+  for (const [found, wanted] of [
+    [g / r, 0.5],
+    [b / r, 0.25],
+    [r, 0.5],
+  ])
+    assert.ok(Math.abs(found / wanted - 1) < 0.04, `${r} ${g} ${b}`);
+  await dropped(
+    page,
+    "green.exr",
+    exr(32, 16, () => [0.25, 1, 0.25], { compression: 2 }),
+  );
+  await page.waitForFunction(() => location.hash.includes("environment=file%3Agreen.exr"));
+  await page.waitForTimeout(200);
+  const green = await meanColour(page, 4);
+  assert.ok(Math.abs(green[0] / green[1] / 0.25 - 1) < 0.04, `${green}`);
+  const ball = await page.locator(".figure canvas").evaluate(canvas => canvas.toDataURL());
+  await dropped(page, "pyramid.obj", PYRAMID);
+  await page.waitForFunction(() => location.hash.includes("object=file%3Apyramid.obj"));
+  await page.waitForTimeout(200);
+  await meanColour(page, 4);
+  assert.notEqual(await page.locator(".figure canvas").evaluate(canvas => canvas.toDataURL()), ball);
+  await screenshot(page, "dropped-pyramid");
+  const menus = await page.locator(".menu select").evaluateAll(all => all.map(one => one.value));
+  assert.deepEqual(menus.slice(0, 2), ["file:green.exr", "file:pyramid.obj"]);
+  await page.goBack();
+  await page.waitForFunction(() => !location.hash.includes("object="));
+  await page.goForward();
+  await page.waitForFunction(() => location.hash.includes("object="));
+  await page.getByRole("tab", { name: "Traced" }).click();
+  await page.locator("canvas[data-passes]:not([data-passes='0'])").waitFor();
+  assert.deepEqual(complaints, []);
+  await page.reload();
+  await page.waitForSelector("[role=alert]");
+  assert.match(await page.getByRole("alert").textContent(), /green\.exr is not in the address: drop the file here/);
+  await page.getByRole("tab", { name: "Object" }).click();
+  await page.waitForFunction(() => document.querySelector("[role=alert]")?.textContent.includes("green.exr"));
+  await dropped(
+    page,
+    "green.exr",
+    exr(32, 16, () => [0.25, 1, 0.25]),
+  );
+  await page.waitForFunction(() => document.querySelector("[role=alert]")?.textContent.includes("pyramid.obj"));
+  await dropped(page, "pyramid.obj", PYRAMID);
+  await meanColour(page, 1);
+  assert.equal(await page.locator("[role=alert]").count(), 0);
+  await close();
+});
+
+test("a measurement of MIT is shaded as it is evaluated", async () => {
+  const value = (ti, to, pd, pi) => {
+    const f = 0.3 + 0.2 * Math.cos(pi) * Math.sin(ti) + 0.1 * Math.cos(pd) * Math.sin(to);
+    return pi > 1 && pi < 1.3 ? [-1, -1, -1] : [f, f / 2, 0.25];
+  };
+  const bytes = mit([9, 9, 24, 16], value),
+    light = { theta: 30, phi: 60 };
+  const loaded = await modules();
+  const [{ readMit }, { MitBrdf }, { newDirections, setDirection }] = await Promise.all(
+    ["files/mit", "brdf/mit_brdf", "brdf/brdf"].map(loaded.load),
+  );
+  const brdf = new MitBrdf("made.dat", await readMit("made.dat", new Blob([bytes])));
+  await loaded.close();
+  const { page, complaints, close } = await open(
+    browser,
+    site.address,
+    `view=sphere&light_theta=${light.theta}&light_phi=${light.phi}&m=-lambert`,
+    { size: { width: 860, height: 620 } },
+  );
+  await dropped(page, "made.dat", bytes);
+  await page.waitForFunction(() => document.querySelectorAll(".entry").length === 2);
+  await page.locator("canvas[data-is-done=true]").waitFor({ timeout: 120000 });
+  await screenshot(page, "mit-sphere");
+  const { box, width, height, pixels } = await page.evaluate(() => {
+    const canvas = document.querySelector(".figure canvas"),
+      copy = new OffscreenCanvas(canvas.width, canvas.height).getContext("2d");
+    copy.drawImage(canvas, 0, 0);
+    const data = copy.getImageData(0, 0, canvas.width, canvas.height).data;
+    const box = JSON.parse(document.querySelector(".tile-name").dataset.box);
+    return { box, width: canvas.width, height: canvas.height, pixels: [...data] };
+  });
+  const pairs = [];
+  for (let row = 0; row < height; row += 3)
+    for (let column = 0; column < width; column += 3) {
+      const radius = 0.47 * box.side,
+        x = (column + 0.5 - box.left - box.side / 2) / radius,
+        y = (box.top + box.side / 2 - row - 0.5) / radius;
+      if (x * x + y * y >= 0.9) continue;
+      const pair = sphereDirections(x, y, light);
+      if (pair.wi[2] > 0.01) pairs.push({ ...pair, at: 4 * (row * width + column) });
+    }
+  assert.ok(pairs.length > 3000, `${pairs.length} pixels`);
+  const [wi, wo] = [newDirections(pairs.length), newDirections(pairs.length)];
+  pairs.forEach((pair, i) => {
+    setDirection(wi, i, pair.wi);
+    setDirection(wo, i, pair.wo);
+  });
+  const { r, g, b } = brdf.eval(wi, wo);
+  let nOff = 0;
+  pairs.forEach(({ at }, i) =>
+    [r, g, b].forEach((values, c) => {
+      const expected = 255 * Math.min(1, Math.PI * values[i]) ** (1 / 2.2);
+      if (Math.abs(pixels[at + c] - expected) > 1) nOff++;
+    }),
+  );
+  // Where a bin begins that was not measured, rounding decides which ones take part.
+  assert.ok(nOff < 0.001 * pairs.length, `${nOff} of ${3 * pairs.length} values are off by more than 1/255`);
+  for (const view of ["Curves", "Lobe", "Slice", "Samples", "Object"]) {
+    await page.getByRole("tab", { name: view }).click();
+    await page.waitForTimeout(300);
+  }
+  await meanColour(page, 4);
   assert.deepEqual(complaints, []);
   await close();
 });
@@ -255,6 +423,31 @@ test("a material is saved as spec, glTF, GLSL and C, which mean the same", async
   await close();
 });
 
+/** In the page: the words of an SVG that overlap others, or stand outside. */
+function overlaps(text) {
+  const holder = document.createElement("div");
+  holder.innerHTML = text;
+  document.body.append(holder);
+  const svg = holder.firstElementChild,
+    frame = svg.getBoundingClientRect(),
+    boxes = [...svg.querySelectorAll(":scope > text")].map(one => ({
+      words: one.textContent,
+      box: one.getBoundingClientRect(),
+    }));
+  const found = boxes
+    .filter(({ box }) => box.left < frame.left - 1 || box.right > frame.right + 1)
+    .map(({ words }) => `${words} is outside`);
+  boxes.forEach(({ words, box }, i) =>
+    boxes.slice(0, i).forEach(other => {
+      const across = Math.min(box.right, other.box.right) - Math.max(box.left, other.box.left),
+        down = Math.min(box.bottom, other.box.bottom) - Math.max(box.top, other.box.top);
+      if (across > 2 && down > 6) found.push(`${words} over ${other.words}`);
+    }),
+  );
+  holder.remove();
+  return found;
+}
+
 test("every view is saved as SVG and PNG", async () => {
   const { page, complaints, close } = await open(browser, site.address);
   for (const view of ["curves", "lobe", "slice", "samples", "checks", "sphere", "object", "traced"]) {
@@ -269,6 +462,9 @@ test("every view is saved as SVG and PNG", async () => {
     assert.ok(isWell, `${view}: the SVG is well-formed`);
     assert.match(svg, view === "curves" ? /class="curve"/ : /<image /, view);
     assert.match(svg, /gtr alpha=.1 gamma=1.5/, view);
+    // Each line of words is inside the picture, and no two of them overlap.
+    const over = await page.evaluate(overlaps, svg);
+    assert.deepEqual(over, [], view);
     const png = readFileSync(await saved(page, "PNG"));
     assert.equal(png.subarray(1, 4).toString(), "PNG", view);
     assert.ok(

@@ -1,4 +1,5 @@
-/* materials.mjs: random specs that the library accepts, from the table that `facet materials --json` prints.
+/* materials.mjs: random specs that the library accepts, from the table that `facet materials --json` prints; the
+ * directions of a lit sphere.
  *
  * SPDX-License-Identifier: MIT */
 import { execFileSync, spawnSync } from "node:child_process";
@@ -49,4 +50,17 @@ export function randomSpec(models, draw) {
 export function models() {
   const table = JSON.parse(facet("materials", "--json"));
   return Array.isArray(table) ? table : (table.models ?? table.materials);
+}
+
+/** The directions of the pixel whose middle is (x, y) of the unit disc: as gl/spheres.ts has them, written once more. */
+export function sphereDirections(x, y, { theta, phi }) {
+  const n = [x, y, Math.sqrt(1 - x * x - y * y)],
+    length = Math.hypot(n[0], n[2]),
+    degree = Math.PI / 180;
+  const t = [n[2] / length, 0, -n[0] / length],
+    b = [n[1] * t[2], n[2] * t[0] - n[0] * t[2], -n[1] * t[0]];
+  const s = Math.sin(theta * degree),
+    light = [s * Math.cos(phi * degree), s * Math.sin(phi * degree), Math.cos(theta * degree)];
+  const dot = (a, c) => a[0] * c[0] + a[1] * c[1] + a[2] * c[2];
+  return { wi: [dot(t, light), dot(b, light), dot(n, light)], wo: [t[2], b[2], n[2]] };
 }

@@ -163,6 +163,48 @@ test("an address survives a reload, and going back", async () => {
   await close();
 });
 
+test("going back undoes a whole slide, and a slide by keys", async () => {
+  const { page, close } = await open(browser, site.address, "m=ggx+alpha%3D.1"),
+    spec = () => page.locator(".spec").inputValue(),
+    entries = () => page.evaluate(() => history.length);
+  const shows = text => page.waitForFunction(one => document.querySelector(".spec").value === one, text);
+  const slider = page.getByRole("slider", { name: "alpha", exact: true }),
+    box = await slider.boundingBox(),
+    first = await entries();
+  await page.mouse.move(box.x + 0.5 * box.width, box.y + box.height / 2);
+  await page.mouse.down();
+  for (let k = 1; k <= 20; k++) {
+    await page.mouse.move(box.x + (0.5 + 0.01 * k) * box.width, box.y + box.height / 2);
+    await page.waitForTimeout(20);
+  }
+  await page.mouse.up();
+  assert.equal(await entries(), first + 1, "one entry for a slide");
+  const slid = await spec();
+  await page.waitForFunction(text => new URLSearchParams(location.hash.slice(1)).get("m") === text, slid);
+  await page.getByRole("tab", { name: "Lobe" }).click();
+  await page.getByRole("tab", { name: "Curves" }).click();
+  await slider.focus();
+  for (let k = 0; k < 5; k++) await page.keyboard.press("ArrowLeft");
+  assert.equal(await entries(), first + 4, "one entry for keys in a row");
+  const moved = await spec();
+  assert.notEqual(moved, slid);
+  await page.goBack();
+  await shows(slid);
+  await page.goBack();
+  await page.goBack();
+  await shows(slid);
+  await page.goBack();
+  await shows("ggx alpha=.1");
+  await page.goForward();
+  await shows(slid);
+  // Another slide after going back is an entry of its own.
+  await page.locator("[data-parameter=alpha] .name").dblclick();
+  await shows("ggx");
+  await page.goBack();
+  await shows(slid);
+  await close();
+});
+
 test(
   "facet explore serves the page to this machine",
   { skip: !process.env.FACET_PROGRAM && "needs the program" },

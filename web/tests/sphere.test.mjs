@@ -8,7 +8,7 @@ import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { launch, open, serve } from "./browser.mjs";
-import { models } from "./materials.mjs";
+import { models, sphereDirections } from "./materials.mjs";
 
 const program = process.env.FACET_PROGRAM ?? "build/dev/facet",
   folder = process.env.FACET_PAGE ?? "build/web";
@@ -36,20 +36,7 @@ const SPECS = [
   "glass alpha=.3",
   "lambert kd=.2,.5,.8",
 ];
-const LIGHT = { theta: 40, phi: 45 },
-  DEGREE = Math.PI / 180;
-
-/** The directions of the pixel whose middle is (x, y) of the unit disc: as gl/spheres.ts has them, written once more. */
-function directionsAt(x, y) {
-  const n = [x, y, Math.sqrt(1 - x * x - y * y)],
-    length = Math.hypot(n[0], n[2]);
-  const t = [n[2] / length, 0, -n[0] / length],
-    b = [n[1] * t[2], n[2] * t[0] - n[0] * t[2], -n[1] * t[0]];
-  const s = Math.sin(LIGHT.theta * DEGREE),
-    light = [s * Math.cos(LIGHT.phi * DEGREE), s * Math.sin(LIGHT.phi * DEGREE), Math.cos(LIGHT.theta * DEGREE)];
-  const dot = (a, c) => a[0] * c[0] + a[1] * c[1] + a[2] * c[2];
-  return { wi: [dot(t, light), dot(b, light), dot(n, light)], wo: [t[2], b[2], n[2]] };
-}
+const LIGHT = { theta: 40, phi: 45 };
 
 /** What `facet eval` gives for all of them: f cos theta_i. */
 function evaluate(spec, pairs) {
@@ -91,7 +78,7 @@ test("a sphere lit by the generated GLSL is the C library's within 1/255 at ever
         const x = (column + 0.5 - box.left - box.side / 2) / radius,
           y = (box.top + box.side / 2 - row - 0.5) / radius;
         if (x * x + y * y >= 0.98) continue; // the edge is mixed with the page
-        const pair = directionsAt(x, y);
+        const pair = sphereDirections(x, y, LIGHT);
         // Where the light grazes, rounding decides whether it is there.
         if (Math.abs(pair.wi[2]) < 1e-5) continue;
         pairs.push(pair);

@@ -171,7 +171,7 @@ test("materials are hidden, shown alone, copied and removed", async () => {
   await page.getByRole("button", { name: "remove" }).first().click();
   await curves(3);
   await page.getByLabel("add a material").selectOption("ward");
-  assert.equal(await page.locator(".entry").count(), 4);
+  await page.waitForFunction(() => document.querySelectorAll(".entry").length === 4);
   await close();
 });
 

@@ -29,6 +29,13 @@ export interface Brdf {
   eval(wi: Directions, wo: Directions): Rgb;
 }
 
+/** Directions that are drawn for a viewer by three numbers in [0,1) each, and their density; 0 where there is none. */
+export interface Sampling {
+  readonly isDelta: boolean;
+  pdf(wi: Directions, wo: Directions): Float32Array;
+  sample(wo: Directions, u: Directions): { readonly wi: Directions; readonly pdf: Float32Array };
+}
+
 export function newDirections(n: number): Directions {
   return { x: new Float32Array(n), y: new Float32Array(n), z: new Float32Array(n) };
 }

@@ -1,10 +1,10 @@
 /* environment.ts: light from all around, made here: y is up.  The object's shader and the path tracer see the same map.
  *
  * SPDX-License-Identifier: MIT */
-import type { State } from "../state/state";
+import type { ENVIRONMENTS } from "../state/state";
 import { dot, normalised, type Vector } from "./angles";
 
-export type EnvironmentName = State["environment"];
+export type EnvironmentName = (typeof ENVIRONMENTS)[number];
 
 /** Rows from the top to the bottom, columns by the azimuth from -z over x to z and back; linear RGB. */
 export interface Environment {

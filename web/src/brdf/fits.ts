@@ -4,7 +4,8 @@
  * vector and the difference vector, two layers of 21 with max(x, 0), and max(exp(x) - 1, 0) at the end.
  * SPDX-License-Identifier: MIT */
 import names from "../../public/fits/merl100.names.txt?raw";
-import { COSINE_SAMPLER, type Shaded, type Shading } from "../gl/shading";
+import type { Shaded, Shading } from "../gl/shading";
+import { bindTable, TABLE_SAMPLER } from "../gl/table_glsl";
 import type { Brdf, Directions, Rgb } from "./brdf";
 import { HALF_ANGLES_GLSL, halfAngles } from "./half_angles";
 
@@ -49,8 +50,11 @@ vec3 shade_eval(vec3 wi, vec3 wo)
     }
     return max(exp(min(f, 80.0)) - 1.0, 0.0)*wi.z;
 }
-${COSINE_SAMPLER}`,
-  bind: (gl, program, brdf) => gl.uniform4fv(gl.getUniformLocation(program, "weights"), (brdf as Fit).padded),
+${TABLE_SAMPLER}`,
+  bind: (gl, program, brdf) => {
+    gl.uniform4fv(gl.getUniformLocation(program, "weights"), (brdf as Fit).padded);
+    bindTable(gl, program, brdf);
+  },
 };
 
 /** to[j] = from + sum of x[i] W[i][j]. */

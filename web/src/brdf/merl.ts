@@ -2,7 +2,8 @@
  *
  * [matusik03] Matusik, Pfister, Brand and McMillan, A data-driven reflectance model, SIGGRAPH 2003.
  * SPDX-License-Identifier: MIT */
-import { COSINE_SAMPLER, type Shaded, type Shading } from "../gl/shading";
+import type { Shaded, Shading } from "../gl/shading";
+import { bindTable, TABLE_SAMPLER } from "../gl/table_glsl";
 import type { Directions, Rgb } from "./brdf";
 import { HALF_ANGLES_GLSL, halfAngles } from "./half_angles";
 
@@ -35,12 +36,13 @@ vec3 shade_eval(vec3 wi, vec3 wo)
     }
     return f*wi.z;
 }
-${COSINE_SAMPLER}`,
+${TABLE_SAMPLER}`,
   bind: (gl, program, brdf) => {
     gl.activeTexture(gl.TEXTURE7);
     gl.bindTexture(gl.TEXTURE_3D, (brdf as Merl).texture(gl));
     gl.uniform1i(gl.getUniformLocation(program, "merl"), 7);
     gl.activeTexture(gl.TEXTURE0);
+    bindTable(gl, program, brdf);
   },
 };
 

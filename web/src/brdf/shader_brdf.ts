@@ -3,7 +3,8 @@
  * SPDX-License-Identifier: MIT */
 import { specText, type Settings } from "../facet/library";
 import { theEvaluator } from "../gl/evaluator";
-import { COSINE_SAMPLER, type Shaded, type Shading } from "../gl/shading";
+import type { Shaded, Shading } from "../gl/shading";
+import { bindTable, TABLE_SAMPLER } from "../gl/table_glsl";
 import type { Directions, Rgb } from "./brdf";
 import type { BrdfFile } from "./brdf_file";
 import { toGlslEs } from "./glsl_es";
@@ -23,7 +24,7 @@ vec3 shade_eval(vec3 wi, vec3 wo)
     vec3 f = BRDF(wi, wo, vec3(0, 0, 1), vec3(1, 0, 0), vec3(0, 1, 0))*wi.z;
     return vec3(isnan(f.x) ? 0.0 : f.x, isnan(f.y) ? 0.0 : f.y, isnan(f.z) ? 0.0 : f.z);
 }
-${COSINE_SAMPLER}`,
+${TABLE_SAMPLER}`,
     bind: (gl, program, brdf) => {
       const { settings } = brdf as ShaderBrdf;
       settings.model.parameters.forEach(({ name, kind }, k) => {
@@ -33,6 +34,7 @@ ${COSINE_SAMPLER}`,
         else if (kind === "choice") gl.uniform1i(place, a);
         else gl.uniform1f(place, a);
       });
+      bindTable(gl, program, brdf);
     },
   };
 }

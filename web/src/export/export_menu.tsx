@@ -32,9 +32,10 @@ export function ExportMenu({ state }: { state: State }): JSX.Element {
   }, []);
 
   const saveView = async (kind: "svg" | "png"): Promise<void> => {
-    const figure = document.querySelector<HTMLElement>(".figure");
-    if (!figure) return;
-    const picture = pictureOf(figure, theme),
+    const view = document.querySelector<HTMLElement>(".view"),
+      figure = view?.querySelector<HTMLElement>(".figure");
+    if (!view || !figure) return;
+    const picture = pictureOf(view, theme),
       name = `facet-${figure.dataset.figure}.${kind}`;
     save(kind === "svg" ? new Blob([picture.svg], { type: "image/svg+xml" }) : await pngOf(picture), name);
     menu.current?.removeAttribute("open");

@@ -34,21 +34,69 @@ function drawingOf(svg: SVGSVGElement, place: Place): SVGElement {
   return copy;
 }
 
-/** A line of text where it stands; lines that the browser broke stay one. */
-function wordsOf(node: HTMLElement, { x, y, width, height }: Place): SVGElement {
-  const style = getComputedStyle(node),
-    isCentred = style.textAlign === "center" && style.display !== "inline";
-  const text = element("text", {
-    x: isCentred ? x + width / 2 : x,
-    y: y + height / 2,
-    fill: style.color,
-    "font-family": style.fontFamily.replace(/"/g, "'"),
-    "font-size": style.fontSize,
-    "text-anchor": isCentred ? "middle" : "start",
-    "dominant-baseline": "central",
-  });
-  text.textContent = node.textContent;
-  return text;
+interface Line {
+  text: string;
+  left: number;
+  right: number;
+  readonly top: number;
+  readonly bottom: number;
+}
+
+/** The lines that the browser made of a text, cut as it cuts those that are too long. */
+function linesOf(node: Text): Line[] {
+  const lines: Line[] = [],
+    range = document.createRange(),
+    box = node.parentElement!.closest(".tile-name, .panel-title, th")?.getBoundingClientRect();
+  for (let i = 0; i < node.length; i++) {
+    range.setStart(node, i);
+    range.setEnd(node, i + 1);
+    const { left, right, top, bottom, width } = range.getBoundingClientRect(),
+      last = lines[lines.length - 1];
+    if (!width) continue;
+    const isBlank = !node.data[i].trim();
+    if (last && Math.abs(last.top - top) < (bottom - top) / 2) {
+      last.text += node.data[i];
+      if (!isBlank) last.right = right;
+    } else if (!isBlank) lines.push({ text: node.data[i], left, right, top, bottom });
+  }
+  for (const line of lines) {
+    const over = box ? line.right - box.right : 0;
+    if (over > 0.5) {
+      const each = (line.right - line.left) / line.text.length,
+        n = Math.ceil(over / each) + 1;
+      line.text = `${line.text.slice(0, -n)}…`;
+      line.right -= (n - 1) * each;
+    }
+  }
+  return lines;
+}
+
+/** The words of a node where they stand. */
+function wordsOf(node: HTMLElement, frame: DOMRect): SVGElement[] {
+  const walker = document.createTreeWalker(node, NodeFilter.SHOW_TEXT),
+    made: SVGElement[] = [];
+  while (walker.nextNode()) {
+    const part = walker.currentNode as Text,
+      style = getComputedStyle(part.parentElement!),
+      isCentred = style.textAlign === "center";
+    for (const { text, left, right, top, bottom } of linesOf(part)) {
+      const words = element("text", {
+        x: (isCentred ? (left + right) / 2 : left) - frame.left,
+        y: (top + bottom) / 2 - frame.top,
+        fill: style.color,
+        "font-family": style.fontFamily.replace(/"/g, "'"),
+        "font-size": style.fontSize,
+        "font-weight": style.fontWeight,
+        // As wide as here, for the next words begin where they begin here.
+        textLength: right - left,
+        "text-anchor": isCentred ? "middle" : "start",
+        "dominant-baseline": "central",
+      });
+      words.textContent = text.trim();
+      made.push(words);
+    }
+  }
+  return made;
 }
 
 export interface Picture {
@@ -57,13 +105,16 @@ export interface Picture {
   readonly height: number;
 }
 
-export function pictureOf(figure: HTMLElement, theme: Theme): Picture {
-  const frame = figure.getBoundingClientRect(),
-    width = Math.ceil(frame.width),
+/** What is inside the view, with its words. */
+export function pictureOf(view: HTMLElement, theme: Theme): Picture {
+  const frame = view.getBoundingClientRect(),
+    // A table that is scrolled is there as a whole.
+    tables = [...view.querySelectorAll("table[data-export-text]")].map(one => one.getBoundingClientRect().right),
+    width = Math.ceil(Math.max(frame.right, ...tables) - frame.left),
     height = Math.ceil(frame.height);
   const root = element("svg", { xmlns: SVG, width, height, viewBox: `0 0 ${width} ${height}` });
   root.append(element("rect", { width, height, fill: theme.page }));
-  for (const node of figure.querySelectorAll<HTMLElement | SVGSVGElement>("canvas, svg, .dot, [data-export-text]")) {
+  for (const node of view.querySelectorAll<HTMLElement | SVGSVGElement>("canvas, svg, .dot, [data-export-text]")) {
     const rect = node.getBoundingClientRect();
     if (!rect.width || !rect.height) continue;
     const place = placeIn(frame, rect);
@@ -73,7 +124,7 @@ export function pictureOf(figure: HTMLElement, theme: Theme): Picture {
     else if (node.classList.contains("dot")) {
       const { backgroundColor: fill } = getComputedStyle(node);
       root.append(element("circle", { cx: place.x + 4, cy: place.y + 4, r: 4, fill }));
-    } else if (node.textContent?.trim()) root.append(wordsOf(node, place));
+    } else root.append(...wordsOf(node, frame));
   }
   return { svg: new XMLSerializer().serializeToString(root), width, height };
 }

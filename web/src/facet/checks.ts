@@ -2,6 +2,7 @@
  *
  * SPDX-License-Identifier: MIT */
 import type { ChiSquareAnswer, FurnaceAnswer } from "../workers/messages";
+import { BANDS, CELLS, SECTORS } from "../brdf/cells";
 import { Memory, type Heap } from "./memory";
 
 interface ChecksExports extends Heap {
@@ -10,10 +11,6 @@ interface ChecksExports extends Heap {
   checks_chi_square(text: number, wo: number, n: number, seed: number, result: number): number;
 }
 
-export const BANDS = 20,
-  SECTORS = 20;
-const CELLS = 2 * BANDS * SECTORS + 1,
-  SEED = 1;
 const RESULT = 9 + (2 * BANDS + 1) + 2 * BANDS * (SECTORS + 1) + 2 * CELLS;
 
 export class Checks {
@@ -54,8 +51,8 @@ export class Checks {
   }
 
   /** Undefined for what has no density. */
-  chiSquare(text: string, wo: readonly number[], n: number): ChiSquareAnswer | undefined {
-    const all = this.call(text, wo, RESULT, (name, v, to) => this.exports.checks_chi_square(name, v, n, SEED, to));
+  chiSquare(text: string, wo: readonly number[], n: number, seed: number): ChiSquareAnswer | undefined {
+    const all = this.call(text, wo, RESULT, (name, v, to) => this.exports.checks_chi_square(name, v, n, seed, to));
     if (!all) return undefined;
     const [p, statistic, degrees, mass, lost, level, meanX, meanY, nBands] = all;
     let at = 9;
@@ -68,14 +65,4 @@ export class Checks {
       observed: next(CELLS),
     };
   }
-}
-
-/** The cell of a direction with this cosine, and this azimuth from the mean direction [rad]. */
-export function cellOf(answer: ChiSquareAnswer, cosine: number, azimuth: number): number {
-  let band = 0,
-    sector = 0;
-  while (band < answer.nBands - 1 && cosine >= answer.cosines[band + 1]) band++;
-  const first = band * (SECTORS + 1);
-  while (sector < SECTORS - 1 && azimuth >= answer.azimuths[first + sector + 1]) sector++;
-  return SECTORS * band + sector;
 }

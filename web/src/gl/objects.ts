@@ -127,7 +127,7 @@ export class ObjectRenderer {
   private readonly programs: readonly Programs[];
   private readonly display: twgl.ProgramInfo;
   private sums: Sums[] = [];
-  private mesh: { shape: Shape; vao: WebGLVertexArrayObject } | undefined;
+  private mesh: { shape: Shape; vao: WebGLVertexArrayObject; buffers: WebGLBuffer[] } | undefined;
   private light: { environment: Environment; texture: WebGLTexture } | undefined;
   /** Pixels of the sums for a pixel of the canvas. */
   private quality = 1;
@@ -164,18 +164,21 @@ export class ObjectRenderer {
     const { gl } = this;
     if (this.mesh?.shape !== scene.shape) {
       const { position, normal, tangent, indices } = scene.shape;
-      const vao = gl.createVertexArray()!;
+      for (const old of this.mesh?.buffers ?? []) gl.deleteBuffer(old);
+      if (this.mesh) gl.deleteVertexArray(this.mesh.vao);
+      const vao = gl.createVertexArray()!,
+        buffers = [0, 1, 2, 3].map(() => gl.createBuffer()!);
       gl.bindVertexArray(vao);
       [position, normal, tangent].forEach((data, k) => {
-        gl.bindBuffer(gl.ARRAY_BUFFER, gl.createBuffer());
+        gl.bindBuffer(gl.ARRAY_BUFFER, buffers[k]);
         gl.bufferData(gl.ARRAY_BUFFER, data, gl.STATIC_DRAW);
         gl.enableVertexAttribArray(k);
         gl.vertexAttribPointer(k, 3, gl.FLOAT, false, 0, 0);
       });
-      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, gl.createBuffer());
+      gl.bindBuffer(gl.ELEMENT_ARRAY_BUFFER, buffers[3]);
       gl.bufferData(gl.ELEMENT_ARRAY_BUFFER, indices, gl.STATIC_DRAW);
       gl.bindVertexArray(null);
-      this.mesh = { shape: scene.shape, vao };
+      this.mesh = { shape: scene.shape, vao, buffers };
     }
     if (this.light?.environment !== scene.environment) {
       const { width, height } = scene.environment,

@@ -21,18 +21,6 @@ export interface Shaded extends Brdf {
 
 export const SHADE_DELTA = "const float SHADE_DELTA = 1e30;\n";
 
-/** Directions with the density of the cosine, for what has no sampler. */
-export const COSINE_SAMPLER = `
-float shade_pdf(vec3 wi, vec3 wo) { return max(wi.z, 0.0)/3.14159265; }
-vec3 shade_sample(vec3 wo, vec3 u, out vec3 wi, out float pdf)
-{
-    float s = sqrt(u.x), phi = 6.2831853*u.y;
-    wi = vec3(s*cos(phi), s*sin(phi), sqrt(max(1.0 - u.x, 0.0)));
-    pdf = wi.z/3.14159265;
-    return wi.z > 1e-4 ? shade_eval(wi, wo)/pdf : vec3(0);
-}
-`;
-
 const texts = new Map<string, Promise<string>>();
 
 /** A generated file, fetched once. */

@@ -2,9 +2,9 @@
  *
  * SPDX-License-Identifier: MIT */
 import { cross, normalised, type Vector } from "../brdf/angles";
-import type { State } from "../state/state";
+import type { OBJECTS } from "../state/state";
 
-export type ShapeName = State["object"];
+export type ShapeName = (typeof OBJECTS)[number];
 
 export interface Shape {
   readonly position: Float32Array;

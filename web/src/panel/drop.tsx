@@ -3,33 +3,31 @@
  * SPDX-License-Identifier: MIT */
 import type { JSX } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
-import { openFile } from "../brdf/opened";
+import { EXTENSIONS, openFile } from "../brdf/opened";
 import { useAround } from "../session";
-import { nextId } from "../state/state";
 import { IconButton } from "./icons";
 
 /** `open.current` lets the reader choose files. */
 export function Drop({ open }: { open: { current: () => void } }): JSX.Element {
-  const { session, store } = useAround();
+  const { session } = useAround();
   const [isOver, setIsOver] = useState(false);
+  const [reading, setReading] = useState("");
   const [problems, setProblems] = useState<readonly string[]>([]);
   const input = useRef<HTMLInputElement>(null);
   open.current = () => input.current?.click();
 
   const take = async (files: readonly File[]): Promise<void> => {
     const wrong: string[] = [];
+    setProblems([]);
     for (const file of files) {
       try {
-        const text = session.addFile(await openFile(file, name => session.file(name))),
-          { state } = store,
-          id = nextId(state);
-        // Dropped again: entries that wait for it find it.
-        if (state.entries.some(entry => entry.text === text)) store.tell();
-        else store.step({ entries: [...state.entries, { id, text, isHidden: false }], selected: id });
+        setReading(file.name);
+        session.show(await openFile(file, name => session.file(name)));
       } catch (error) {
         wrong.push(error instanceof Error ? error.message : String(error));
       }
     }
+    setReading("");
     setProblems(wrong);
   };
 
@@ -63,7 +61,7 @@ export function Drop({ open }: { open: { current: () => void } }): JSX.Element {
         ref={input}
         type="file"
         class="file-input"
-        accept=".brdf,.bparam,.binary"
+        accept={EXTENSIONS.join()}
         multiple
         tabIndex={-1}
         aria-label="files"
@@ -73,7 +71,12 @@ export function Drop({ open }: { open: { current: () => void } }): JSX.Element {
           void take(files);
         }}
       />
-      {isOver && <div class="drop-here">Drop .brdf, .bparam and MERL .binary files here</div>}
+      {isOver && <div class="drop-here">Drop materials, light or objects here: {EXTENSIONS.join(" ")}</div>}
+      {reading && (
+        <div class="notice" role="status">
+          reading {reading} …
+        </div>
+      )}
       {problems.length > 0 && (
         <div class="message" role="alert">
           <div>

@@ -71,6 +71,7 @@ function EntryRow({ entry, place, state }: { entry: Entry; place: number; state:
       <input
         class="spec"
         aria-label={`material ${place + 1}`}
+        title={resolved.brdf?.label ?? entry.text}
         spellcheck={false}
         value={isOther ? (resolved.brdf?.label ?? entry.text.replace(/^\w+:/, "")) : entry.text}
         readOnly={isOther}
@@ -136,7 +137,7 @@ function AddMenu({ state, fits, open }: { state: State; fits: readonly string[];
           ))}
         </optgroup>
       </select>
-      <IconButton name="file" label="open a .brdf or MERL .binary file" onClick={open} />
+      <IconButton name="file" label="open files: materials, light, objects" onClick={open} />
     </div>
   );
 }

@@ -63,8 +63,9 @@ export interface State {
   readonly lightTheta: number;
   readonly lightPhi: number;
   readonly isDoubled: boolean;
-  readonly environment: (typeof ENVIRONMENTS)[number];
-  readonly object: (typeof OBJECTS)[number];
+  /** One of ENVIRONMENTS and OBJECTS, or "file:NAME" of a dropped file. */
+  readonly environment: string;
+  readonly object: string;
   readonly sampling: (typeof SAMPLINGS)[number];
   readonly turn: number;
   readonly tilt: number;

@@ -18,8 +18,9 @@ import {
   type State,
 } from "./state";
 
-/** The name in the address, the name in State, and its values: a list, a range, or a truth value. */
-type Rule = readonly [string, keyof State, readonly string[] | { low: number; high: number } | "flag"];
+/** The name in the address, the name in State, and its values: a list, a list and files, a range, or a truth value. */
+type Values = readonly string[] | { names: readonly string[] } | { low: number; high: number } | "flag";
+type Rule = readonly [string, keyof State, Values];
 
 const angle = (low: number, high: number): { low: number; high: number } => ({ low, high });
 const RULES: readonly Rule[] = [
@@ -45,8 +46,8 @@ const RULES: readonly Rule[] = [
   ["light_theta", "lightTheta", angle(0, 180)],
   ["light_phi", "lightPhi", angle(-360, 360)],
   ["double", "isDoubled", "flag"],
-  ["environment", "environment", ENVIRONMENTS],
-  ["object", "object", OBJECTS],
+  ["environment", "environment", { names: ENVIRONMENTS }],
+  ["object", "object", { names: OBJECTS }],
   ["sampling", "sampling", SAMPLINGS],
   ["turn", "turn", angle(-360, 360)],
   ["tilt", "tilt", angle(-90, 90)],
@@ -69,8 +70,9 @@ export function stateToHash(state: State): string {
   return "#" + query.toString();
 }
 
-function readValue(values: Rule[2], text: string): unknown {
+function readValue(values: Values, text: string): unknown {
   if (values === "flag") return text === "1";
+  if ("names" in values) return values.names.includes(text) || /^file:./.test(text) ? text : undefined;
   if ("low" in values) {
     const number = Number(text);
     return text.trim() && Number.isFinite(number) ? Math.min(Math.max(number, values.low), values.high) : undefined;

@@ -3,6 +3,7 @@
  * SPDX-License-Identifier: MIT */
 import { direction, fromHalfAngles } from "../brdf/angles";
 import { newDirections, sameDirections, setDirection, type Brdf, type Directions, type Rgb } from "../brdf/brdf";
+import { samplingOf } from "../brdf/sampling";
 import { FacetBrdf } from "../facet/facet_brdf";
 import type { Facet } from "../facet/library";
 import type { Channel, Curve, State } from "../state/state";
@@ -63,11 +64,11 @@ function inPlane(brdf: Brdf, state: State, low: number, hasCosine: boolean): Poi
 }
 
 function density(brdf: Brdf, state: State, low: number): Points {
-  if (!(brdf instanceof FacetBrdf)) throw new NoCurve("has no sampler");
-  if (brdf.isDelta) throw new NoCurve("is smooth: its samples have no density");
+  const sampling = samplingOf(brdf);
+  if (sampling.isDelta) throw new NoCurve("is smooth: its samples have no density");
   const x = curveAngles(low, -low, [0, state.theta, -state.theta]);
   const { wi, wo } = planeDirections({ ...state, fixed: "viewer" }, x);
-  return { x, y: brdf.pdf(wi, wo) };
+  return { x, y: sampling.pdf(wi, wo) };
 }
 
 function byHalfAngles(brdf: Brdf, state: State, isOverHalf: boolean): Points {

@@ -1,4 +1,4 @@
-/* figure.tsx: the frame of every view: it measures its room, and saves what it shows.
+/* figure.tsx: the frame of every view, which measures its room.
  *
  * SPDX-License-Identifier: MIT */
 import type { ComponentChildren, JSX } from "preact";
@@ -27,7 +27,7 @@ export function useSize<T extends HTMLElement>(): [{ current: T | null }, Size |
   return [ref, size];
 }
 
-/** What is inside is saved, and nothing else; `name` becomes the file's. */
+/** `name` becomes that of the file that the view is saved in. */
 export function Figure({ name, children }: { name: string; children: ComponentChildren }): JSX.Element {
   return (
     <figure class="figure" data-figure={name}>

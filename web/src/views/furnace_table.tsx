@@ -25,7 +25,7 @@ export function FurnaceTable(props: { state: State; checked: (brdf: Brdf) => Che
   const goesThrough = resolved.some(brdf => brdf instanceof FacetBrdf && brdf.transmits);
   return (
     <div class="scroll furnace" tabIndex={0}>
-      <table>
+      <table data-export-text>
         <thead>
           <tr>
             <th>

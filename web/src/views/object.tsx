@@ -2,24 +2,41 @@
  *
  * SPDX-License-Identifier: MIT */
 import type { JSX } from "preact";
-import { environmentMap } from "../brdf/environment";
 import { cameraAt } from "../gl/camera";
 import { ObjectRenderer } from "../gl/objects";
-import { shapeOf } from "../gl/shapes";
-import { useAround } from "../session";
+import { useAround, type Session } from "../session";
 import type { State } from "../state/state";
 import { Tiles, type TileFrame, type TilePainter } from "./tiles";
+
+/** Told apart by a number: files of the same name may differ. */
+const numbers = new WeakMap<object, number>();
+let nNumbers = 0;
+function numberOf(one: object): number {
+  let number = numbers.get(one);
+  if (number === undefined) numbers.set(one, (number = ++nNumbers));
+  return number;
+}
+
+export function missingFile(name: string): string {
+  return `${name.replace(/^file:/, "")} is not in the address: drop the file here again`;
+}
 
 class Painter implements TilePainter {
   private readonly renderer: ObjectRenderer;
   state!: State;
 
-  constructor(private readonly gl: WebGL2RenderingContext) {
+  constructor(
+    private readonly gl: WebGL2RenderingContext,
+    private readonly session: Session,
+  ) {
     this.renderer = new ObjectRenderer(gl);
   }
 
   paint({ jobs, size, ratio }: TileFrame): boolean {
-    const { environment, object, sampling, turn, tilt, exposure } = this.state;
+    const { sampling, turn, tilt, exposure } = this.state,
+      environment = this.session.environment(this.state),
+      shape = this.session.shape(this.state);
+    if (!environment || !shape) throw new Error(missingFile(environment ? this.state.object : this.state.environment));
     const tiles = jobs.map(({ box, brdf, shading }) => ({
       x: (box.left + box.side / 2) * ratio,
       y: (size.height - box.top - box.side / 2) * ratio,
@@ -28,10 +45,9 @@ class Painter implements TilePainter {
     }));
     const places = tiles.map(({ x, y, side, brdf }) => [x, y, side, brdf.text]);
     const isDone = this.renderer.draw({
-      key: JSON.stringify([places, environment, object, sampling, turn, tilt]),
+      key: JSON.stringify([places, numberOf(environment), numberOf(shape), sampling, turn, tilt]),
       tiles,
-      shape: shapeOf(object),
-      environment: environmentMap(environment),
+      ...{ shape, environment },
       sampling,
       camera: cameraAt(turn, tilt),
       exposure: 2 ** exposure,
@@ -42,7 +58,7 @@ class Painter implements TilePainter {
 }
 
 export function LitObject({ state }: { state: State }): JSX.Element {
-  const { store } = useAround();
+  const { session, store } = useAround();
   const turnBy = (across: number, down: number): void => {
     const { turn, tilt } = store.state;
     store.slide({ turn: (((turn - across) % 360) + 360) % 360, tilt: Math.min(90, Math.max(-90, tilt + down)) });
@@ -52,7 +68,7 @@ export function LitObject({ state }: { state: State }): JSX.Element {
       state={state}
       name="object"
       label="lit objects; drag or arrow keys turn them"
-      make={gl => new Painter(gl)}
+      make={gl => new Painter(gl, session)}
       paintAgain={(painter, frame) => {
         (painter as Painter).state = state;
         return painter.paint(frame);

@@ -3,11 +3,11 @@
  * SPDX-License-Identifier: MIT */
 import type { JSX } from "preact";
 import { direction } from "../brdf/angles";
-import { newDirections, sameDirections, setDirection, type Brdf } from "../brdf/brdf";
+import { newDirections, sameDirections, setDirection, type Brdf, type Sampling } from "../brdf/brdf";
+import { samplingOf } from "../brdf/sampling";
 import { plainLabel } from "../chart/axis";
 import { clear } from "../chart/chart";
 import { addText, type Group } from "../chart/formula";
-import { FacetBrdf } from "../facet/facet_brdf";
 import type { State } from "../state/state";
 import { sequentialColour } from "../state/theme";
 import { paintCells, Panels, type Layers } from "./panels";
@@ -40,15 +40,17 @@ function drawDisc(root: Group, x: number, y: number, radius: number, layers: Lay
   root.append("circle").attr("cx", x).attr("cy", y).attr("r", radius).attr("fill", "none").attr("stroke", theme.faint);
   for (const angle of [30, 60, 90])
     addText(root, `${angle}°`, {
-      x: x + radius * Math.sin((angle * Math.PI) / 180) * Math.SQRT1_2 + 3,
-      y: y + radius * Math.sin((angle * Math.PI) / 180) * Math.SQRT1_2 + 10,
+      // Inside the two rings, and outside the last one.
+      x: x + radius * Math.sin((angle * Math.PI) / 180) * Math.SQRT1_2 + (angle === 90 ? 3 : -4),
+      y: y + radius * Math.sin((angle * Math.PI) / 180) * Math.SQRT1_2 + (angle === 90 ? 10 : 0),
+      anchor: angle === 90 ? "start" : "end",
       ink: angle === 90 ? theme.faint : "#ffffff",
       size: 10.5,
     });
 }
 
 /** The density over the disc, on a logarithmic scale of four decades; its largest value. */
-function paintDensity(layers: Layers, brdf: FacetBrdf, wo: readonly number[], box: DOMRect, page: number[]): number {
+function paintDensity(layers: Layers, sampling: Sampling, wo: readonly number[], box: DOMRect, page: number[]): number {
   const wi = newDirections(SIDE * SIDE);
   for (let row = 0; row < SIDE; row++)
     for (let column = 0; column < SIDE; column++) {
@@ -57,7 +59,7 @@ function paintDensity(layers: Layers, brdf: FacetBrdf, wo: readonly number[], bo
         rest = 1 - x * x - y * y;
       setDirection(wi, row * SIDE + column, rest > 0 ? [x, y, Math.sqrt(rest)] : [0, 0, -1]);
     }
-  const pdf = brdf.pdf(wi, sameDirections(SIDE * SIDE, wo));
+  const pdf = sampling.pdf(wi, sameDirections(SIDE * SIDE, wo));
   const most = pdf.reduce((a, b) => Math.max(a, b), 0);
   paintCells(layers, box, SIDE, (column, row) => {
     const i = row * SIDE + column;
@@ -70,21 +72,18 @@ function paintDensity(layers: Layers, brdf: FacetBrdf, wo: readonly number[], bo
 function drawSamples(layers: Layers, brdf: Brdf, state: State): string {
   const { size, theme, svg } = layers,
     root = clear(svg, size.width, size.height);
-  if (!(brdf instanceof FacetBrdf)) {
-    layers.canvas.width = 0;
-    return "has no sampler";
-  }
   const radius = Math.max(30, Math.min(size.width, size.height) / 2 - 14),
     x = size.width / 2,
     y = size.height / 2;
-  const wo = direction(-state.theta, state.phi),
+  const sampling = samplingOf(brdf),
+    wo = direction(-state.theta, state.phi),
     n = Math.round(state.samples);
   const page = theme.name === "dark" ? [21, 24, 28] : [255, 255, 255];
   const box = new DOMRect(x - radius, y - radius, 2 * radius, 2 * radius);
-  const most = brdf.isDelta ? 0 : paintDensity(layers, brdf, wo, box, page);
+  const most = sampling.isDelta ? 0 : paintDensity(layers, sampling, wo, box, page);
   drawDisc(root, x, y, radius, layers);
   const u = uniforms(3 * n),
-    { wi, pdf } = brdf.sample(sameDirections(n, wo), {
+    { wi, pdf } = sampling.sample(sameDirections(n, wo), {
       x: u.subarray(0, n),
       y: u.subarray(n, 2 * n),
       z: u.subarray(2 * n),
@@ -126,7 +125,9 @@ function drawSamples(layers: Layers, brdf: Brdf, state: State): string {
     .attr("stroke", theme.lines[1])
     .attr("stroke-width", 2);
   addText(root, "ω_o", { x: view[0], y: view[1] - 10, ink: "#ffffff", anchor: "middle", weight: 600 });
-  const density = brdf.isDelta ? "mirror directions" : `density up to ${plainLabel(Number(most.toPrecision(3)))}/sr`;
+  const density = sampling.isDelta
+    ? "mirror directions"
+    : `density up to ${plainLabel(Number(most.toPrecision(3)))}/sr`;
   return `${density}, ${n} samples, ${lost} give none${nBelow ? `, ${nBelow} go through (orange)` : ""}`;
 }
 

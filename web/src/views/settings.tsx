@@ -156,16 +156,15 @@ const SAMPLING_NAMES: readonly (readonly [State["sampling"], string])[] = [
   ["light", "light"],
   ["material", "material"],
 ];
-const ENVIRONMENT_NAMES = ENVIRONMENTS.map(name => [name, name] as const);
 
 function ObjectSettings({ state }: { state: State }): JSX.Element {
-  const { store } = useAround();
+  const { session, store } = useAround();
   return (
     <>
       <Menu
         label="light"
         value={state.environment}
-        values={ENVIRONMENT_NAMES}
+        values={session.choices(ENVIRONMENTS, "environment", state)}
         set={environment => store.step({ environment })}
       />
       {state.view === "object" && (
@@ -173,7 +172,7 @@ function ObjectSettings({ state }: { state: State }): JSX.Element {
           <Menu
             label="object"
             value={state.object}
-            values={OBJECTS.map(name => [name, name] as const)}
+            values={session.choices(OBJECTS, "object", state)}
             set={object => store.step({ object })}
           />
           <Menu

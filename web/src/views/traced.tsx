@@ -5,12 +5,14 @@
 import type { JSX } from "preact";
 import { useEffect, useRef, useState } from "preact/hooks";
 import type { Brdf } from "../brdf/brdf";
+import type { Environment } from "../brdf/environment";
 import { FacetBrdf } from "../facet/facet_brdf";
 import { useAround } from "../session";
 import { visibleEntries, type State } from "../state/state";
 import { lineColour } from "../state/theme";
 import type { TraceMessage, TracePart } from "../workers/tracer.worker";
 import { Figure } from "./figure";
+import { missingFile } from "./object";
 
 const WIDTH = 384,
   HEIGHT = 320,
@@ -22,6 +24,8 @@ class Picture {
   private readonly workers: Worker[];
   private sums = new Float32Array(3 * WIDTH * HEIGHT);
   private key = "";
+  private environment: Environment | undefined;
+  private begun = 0;
   passes = 0;
 
   constructor(module: WebAssembly.Module, n: number, tell: () => void) {
@@ -29,7 +33,7 @@ class Picture {
       const worker = new Worker(new URL("../workers/tracer.worker.ts", import.meta.url), { type: "module" });
       worker.postMessage({ module } satisfies TraceMessage);
       worker.onmessage = (event: MessageEvent<TracePart>) => {
-        if (event.data.key !== this.key) return;
+        if (event.data.key !== `${this.begun}|${this.key}`) return;
         const { sums } = event.data;
         for (let i = 0; i < sums.length; i++) this.sums[i] += sums[i];
         this.passes += event.data.passes;
@@ -39,16 +43,23 @@ class Picture {
     });
   }
 
-  show(brdf: Brdf, state: State): void {
-    const key = `${brdf.text}|${state.environment}`;
-    if (key === this.key) return;
+  show(brdf: Brdf, environment: Environment): void {
+    const isLit = environment === this.environment,
+      key = brdf.text;
+    if (isLit && key === this.key) return;
+    // Parts of the picture before may still be on their way.
+    if (!isLit) this.begun++;
+    this.environment = environment;
     this.key = key;
     this.passes = 0;
     this.sums.fill(0);
     const passes = Math.ceil(MOST_PASSES / this.workers.length);
-    const scene = { key, text: brdf.text, environment: state.environment, width: WIDTH, height: HEIGHT, passes };
+    const scene = { key: `${this.begun}|${key}`, text: brdf.text, width: WIDTH, height: HEIGHT, passes };
     this.workers.forEach((worker, k) =>
-      worker.postMessage({ scene: { ...scene, seed: 1 + k } } satisfies TraceMessage),
+      worker.postMessage({
+        ...(isLit ? {} : { environment }),
+        scene: { ...scene, seed: 1 + k },
+      } satisfies TraceMessage),
     );
   }
 
@@ -69,7 +80,14 @@ class Picture {
   }
 }
 
-function Ball({ brdf, place, state, n }: { brdf: FacetBrdf; place: number; state: State; n: number }): JSX.Element {
+function Ball(props: {
+  brdf: FacetBrdf;
+  place: number;
+  state: State;
+  environment: Environment;
+  n: number;
+}): JSX.Element {
+  const { brdf, place, state, environment, n } = props;
   const { session, theme } = useAround();
   const canvas = useRef<HTMLCanvasElement>(null),
     picture = useRef<Picture | null>(null);
@@ -91,9 +109,9 @@ function Ball({ brdf, place, state, n }: { brdf: FacetBrdf; place: number; state
     };
   }, [n]);
   useEffect(() => {
-    const timer = setTimeout(() => picture.current?.show(brdf, state), 30);
+    const timer = setTimeout(() => picture.current?.show(brdf, environment), 30);
     return () => clearTimeout(timer);
-  }, [brdf.text, state.environment, n]);
+  }, [brdf.text, environment, n]);
   useEffect(() => picture.current?.paint(canvas.current!, exposure.current), [state.exposure]);
   return (
     <div class="panel traced">
@@ -118,11 +136,18 @@ export function Traced({ state }: { state: State }): JSX.Element {
   const traced = shown.filter(one => one.brdf instanceof FacetBrdf);
   const cores = Math.max(1, (navigator.hardwareConcurrency || 2) - 1);
   const n = Math.max(1, Math.min(MOST_WORKERS, Math.floor(cores / Math.max(traced.length, 1))));
+  const environment = session.environment(state);
+  if (!environment)
+    return (
+      <p class="problem" role="alert">
+        {missingFile(state.environment)}
+      </p>
+    );
   return (
     <Figure name="traced">
       <div class="panels traced-panels">
         {traced.map(({ entry, place, brdf }) => (
-          <Ball key={entry.id} brdf={brdf as FacetBrdf} place={place} state={state} n={n} />
+          <Ball key={entry.id} {...{ place, state, environment, n }} brdf={brdf as FacetBrdf} />
         ))}
       </div>
       {shown.length > traced.length && (

@@ -1,6 +1,7 @@
 /* messages.ts: what the page asks of its workers, and what they answer.
  *
  * SPDX-License-Identifier: MIT */
+import type { Tables } from "../brdf/table_sampler";
 
 /** A worker first gets the compiled library, and where the checks are; then requests, which it answers in order. */
 export interface Start {
@@ -38,8 +39,17 @@ export interface ChiSquareRequest {
   readonly wo: readonly number[];
   readonly n: number;
 }
+/** The same of a sampler by tables. */
+export interface TableChiSquareRequest {
+  readonly kind: "table-chi-square";
+  readonly tables: Tables;
+  readonly wo: readonly number[];
+  readonly n: number;
+}
 /** Bands of cos theta_i, each cut into sectors of azimuth about `mean`; verify/sampler_density.h. */
 export interface ChiSquareAnswer {
+  /** Whether it is of other samples, since the first ones failed. */
+  readonly isSecond?: boolean;
   readonly p: number;
   readonly statistic: number;
   readonly degrees: number;
@@ -55,7 +65,7 @@ export interface ChiSquareAnswer {
   readonly observed: Float64Array;
 }
 
-export type Request = AlbedoRequest | FurnaceRequest | ChiSquareRequest;
+export type Request = AlbedoRequest | FurnaceRequest | ChiSquareRequest | TableChiSquareRequest;
 
 export interface Numbered {
   readonly number: number;

@@ -1,14 +1,13 @@
 /* tracer.worker.ts: paths through one scene until it is told otherwise; sums are posted now and then.
  *
  * SPDX-License-Identifier: MIT */
-import { environmentMap, type EnvironmentName } from "../brdf/environment";
+import type { Environment } from "../brdf/environment";
 import { instantiate, type Facet } from "../facet/library";
 import { Tracer } from "./tracer";
 
 export interface TraceScene {
   readonly key: string;
   readonly text: string;
-  readonly environment: EnvironmentName;
   readonly width: number;
   readonly height: number;
   readonly seed: number;
@@ -16,6 +15,8 @@ export interface TraceScene {
 }
 export interface TraceMessage {
   readonly module?: WebAssembly.Module;
+  /** For this scene and those that follow. */
+  readonly environment?: Environment;
   /** null: rest. */
   readonly scene?: TraceScene | null;
 }
@@ -26,6 +27,7 @@ export interface TracePart {
 }
 
 let facet: Facet;
+let environment: Environment;
 let scene: TraceScene | null = null;
 let tracer: Tracer | undefined;
 let done = 0;
@@ -49,12 +51,13 @@ breath.port1.onmessage = pass;
 
 self.onmessage = (event: MessageEvent<TraceMessage>) => {
   if (event.data.module) facet = instantiate(event.data.module);
+  if (event.data.environment) environment = event.data.environment;
   if (event.data.scene === undefined) return;
   const isResting = !scene || done >= scene.passes;
   scene = event.data.scene;
   done = 0;
   if (!scene) return;
-  const { text, environment, width, height, seed } = scene;
-  tracer = new Tracer(facet.prepare(text), environmentMap(environment), width, height, seed);
+  const { text, width, height, seed } = scene;
+  tracer = new Tracer(facet.prepare(text), environment, width, height, seed);
   if (isResting) breath.port2.postMessage(0);
 };
