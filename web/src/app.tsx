@@ -8,7 +8,7 @@ import { ExportMenu } from "./export/export_menu";
 import { Drop } from "./panel/drop";
 import { IconButton } from "./panel/icons";
 import { Materials } from "./panel/materials";
-import { Around, type Session } from "./session";
+import { Around, useAround, type Session } from "./session";
 import type { State, View } from "./state/state";
 import { DARK, LIGHT } from "./state/theme";
 import { ChecksView } from "./views/checks";
@@ -56,11 +56,14 @@ function useTheme(): [typeof LIGHT, () => void] {
   ];
 }
 
-function Tabs({ state, show }: { state: State; show: (view: View) => void }): JSX.Element {
+function Tabs({ state }: { state: State }): JSX.Element {
+  const { store } = useAround();
+  const show = (view: View): void => store.step({ view });
   const keys = (event: KeyboardEvent): void => {
     const step = { ArrowRight: 1, ArrowLeft: -1 }[event.key];
     if (!step) return;
-    const at = NAMES.findIndex(([view]) => view === state.view),
+    // The store's view: a second key comes before the first one's frame.
+    const at = NAMES.findIndex(([view]) => view === store.state.view),
       [next] = NAMES[(at + step + NAMES.length) % NAMES.length];
     event.preventDefault();
     show(next);
@@ -129,7 +132,7 @@ export function App({ session }: { session: Session }): JSX.Element {
         <Materials state={state} fits={FIT_NAMES} open={() => open.current()} />
       </aside>
       <main>
-        <Tabs state={state} show={view => store.step({ view })} />
+        <Tabs state={state} />
         <Settings state={state} />
         <Directions state={state} />
         <div class="view" id="view" role="tabpanel" aria-labelledby={`tab-${state.view}`}>

@@ -2,12 +2,10 @@
  *
  * SPDX-License-Identifier: MIT */
 
+import type { Vector } from "./angles";
+
 /** theta_h, theta_d and phi_d [rad] into `to`; both directions above the horizon. */
-export function halfAngles(
-  wi: readonly [number, number, number],
-  wo: readonly [number, number, number],
-  to: Float64Array,
-): void {
+export function halfAngles(wi: Vector, wo: Vector, to: Float64Array): void {
   let hx = wi[0] + wo[0],
     hy = wi[1] + wo[1],
     hz = wi[2] + wo[2];

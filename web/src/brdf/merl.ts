@@ -2,10 +2,11 @@
  *
  * [matusik03] Matusik, Pfister, Brand and McMillan, A data-driven reflectance model, SIGGRAPH 2003.
  * SPDX-License-Identifier: MIT */
-import type { Shaded, Shading } from "../gl/shading";
+import type { Shading } from "../gl/shading";
 import { bindTable, TABLE_SAMPLER } from "../gl/table_glsl";
-import type { Directions, Rgb } from "./brdf";
+import type { Vector } from "./angles";
 import { HALF_ANGLES_GLSL, halfAngles } from "./half_angles";
+import { Measured } from "./measured";
 
 const HALF = 90,
   DIFFERENCE = 90,
@@ -46,58 +47,33 @@ ${TABLE_SAMPLER}`,
   },
 };
 
-export class Merl implements Shaded {
-  readonly kind = "measured";
+export class Merl extends Measured {
   readonly shading = SHADING;
-  private readonly textures = new WeakMap<WebGL2RenderingContext, WebGLTexture>();
+  private readonly angles = new Float64Array(3);
 
   /** `values`: red, green, blue for each azimuth, difference and half angle. */
   constructor(
-    readonly name: string,
+    name: string,
     private readonly values: Float32Array,
-  ) {}
-
-  get label(): string {
-    return `measured ${this.name}`;
+  ) {
+    super(name);
   }
 
-  get text(): string {
-    return `file:${this.name}`;
-  }
-
-  texture(gl: WebGL2RenderingContext): WebGLTexture {
-    let texture = this.textures.get(gl);
-    if (!texture) {
-      texture = gl.createTexture()!;
-      gl.bindTexture(gl.TEXTURE_3D, texture);
-      gl.pixelStorei(gl.UNPACK_ALIGNMENT, 4);
-      gl.texStorage3D(gl.TEXTURE_3D, 1, gl.RGB32F, AZIMUTH, DIFFERENCE, HALF);
-      gl.texSubImage3D(gl.TEXTURE_3D, 0, 0, 0, 0, AZIMUTH, DIFFERENCE, HALF, gl.RGB, gl.FLOAT, this.values);
-      gl.texParameteri(gl.TEXTURE_3D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
-      gl.texParameteri(gl.TEXTURE_3D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
-      this.textures.set(gl, texture);
-    }
+  protected makeTexture(gl: WebGL2RenderingContext): WebGLTexture {
+    const texture = gl.createTexture()!;
+    gl.bindTexture(gl.TEXTURE_3D, texture);
+    gl.pixelStorei(gl.UNPACK_ALIGNMENT, 4);
+    gl.texStorage3D(gl.TEXTURE_3D, 1, gl.RGB32F, AZIMUTH, DIFFERENCE, HALF);
+    gl.texSubImage3D(gl.TEXTURE_3D, 0, 0, 0, 0, AZIMUTH, DIFFERENCE, HALF, gl.RGB, gl.FLOAT, this.values);
+    gl.texParameteri(gl.TEXTURE_3D, gl.TEXTURE_MIN_FILTER, gl.NEAREST);
+    gl.texParameteri(gl.TEXTURE_3D, gl.TEXTURE_MAG_FILTER, gl.NEAREST);
     return texture;
   }
 
-  eval(wi: Directions, wo: Directions): Rgb {
-    const n = wi.x.length,
-      rgb = { r: new Float32Array(n), g: new Float32Array(n), b: new Float32Array(n) },
-      angles = new Float64Array(3),
-      sum = new Float64Array(3);
-    for (let i = 0; i < n; i++) {
-      if (!(wi.z[i] > 0 && wo.z[i] > 0)) continue;
-      halfAngles([wi.x[i], wi.y[i], wi.z[i]], [wo.x[i], wo.y[i], wo.z[i]], angles);
-      this.look(angles, sum);
-      rgb.r[i] = sum[0] * wi.z[i];
-      rgb.g[i] = sum[1] * wi.z[i];
-      rgb.b[i] = sum[2] * wi.z[i];
-    }
-    return rgb;
-  }
-
   /** Linear between the measured angles. */
-  private look(angles: Float64Array, sum: Float64Array): void {
+  protected look(wi: Vector, wo: Vector, sum: Float64Array): void {
+    const { angles } = this;
+    halfAngles(wi, wo, angles);
     const phi = angles[2] < 0 ? angles[2] + Math.PI : angles[2],
       right = Math.PI / 2;
     const at = [

@@ -3,10 +3,11 @@
  * Bins that were not measured are left out; where none of the sixteen around was, f is 0.  Azimuths are of the directions
  * to the surface, as Disney's BRDF Explorer has them.
  * SPDX-License-Identifier: MIT */
-import type { Shaded, Shading } from "../gl/shading";
+import type { Shading } from "../gl/shading";
 import { bindTable, TABLE_SAMPLER } from "../gl/table_glsl";
-import type { Directions, Rgb } from "./brdf";
+import type { Vector } from "./angles";
 import { halves } from "./half_floats";
+import { Measured } from "./measured";
 
 export interface MitData {
   /** Of theta_in, theta_out, phi_diff and phi_in, which is fastest. */
@@ -68,35 +69,25 @@ ${TABLE_SAMPLER}`,
 
 const fraction = (x: number): number => x - Math.floor(x);
 
-export class MitBrdf implements Shaded {
-  readonly kind = "measured";
+export class MitBrdf extends Measured {
   readonly shading = SHADING;
-  private readonly textures = new WeakMap<WebGL2RenderingContext, WebGLTexture>();
   private readonly half = halves();
 
   constructor(
-    readonly name: string,
+    name: string,
     readonly data: MitData,
-  ) {}
-
-  get label(): string {
-    return `measured ${this.name}`;
+  ) {
+    super(name);
   }
 
-  get text(): string {
-    return `file:${this.name}`;
-  }
-
-  texture(gl: WebGL2RenderingContext): WebGLTexture {
-    let texture = this.textures.get(gl);
-    if (texture) return texture;
+  protected makeTexture(gl: WebGL2RenderingContext): WebGLTexture {
     const { values } = this.data,
       n = values.length / 3,
       width = Math.min(WIDTH, n),
       height = Math.ceil(n / WIDTH);
     if (Math.max(width, height) > (gl.getParameter(gl.MAX_TEXTURE_SIZE) as number))
       throw new Error(`${this.name}: has more bins than this browser's WebGL can hold`);
-    this.textures.set(gl, (texture = gl.createTexture()!));
+    const texture = gl.createTexture()!;
     gl.bindTexture(gl.TEXTURE_2D, texture);
     gl.pixelStorei(gl.UNPACK_ALIGNMENT, 2);
     gl.texStorage2D(gl.TEXTURE_2D, 1, gl.RGB16F, width, height);
@@ -114,35 +105,26 @@ export class MitBrdf implements Shaded {
     return texture;
   }
 
-  eval(wi: Directions, wo: Directions): Rgb {
-    const n = wi.x.length,
-      rgb = { r: new Float32Array(n), g: new Float32Array(n), b: new Float32Array(n) },
-      share = new Float64Array(4),
-      sum = new Float64Array(3),
-      right = Math.PI / 2,
-      turn = 2 * Math.PI;
-    for (let i = 0; i < n; i++) {
-      if (!(wi.z[i] > 0 && wo.z[i] > 0)) continue;
-      const phi = wi.x[i] || wi.y[i] ? Math.atan2(-wi.y[i], -wi.x[i]) : 0,
-        other = wo.x[i] || wo.y[i] ? Math.atan2(-wo.y[i], -wo.x[i]) : 0,
-        between = fraction((other - phi) / turn);
-      share[0] = Math.atan2(Math.hypot(wi.x[i], wi.y[i]), wi.z[i]) / right;
-      share[1] = Math.atan2(Math.hypot(wo.x[i], wo.y[i]), wo.z[i]) / right;
-      share[2] = this.data.isHalfTurn ? 2 * Math.min(between, 1 - between) : between;
-      share[3] = fraction(phi / turn);
-      this.look(share, sum);
-      rgb.r[i] = sum[0] * wi.z[i];
-      rgb.g[i] = sum[1] * wi.z[i];
-      rgb.b[i] = sum[2] * wi.z[i];
-    }
-    return rgb;
-  }
-
+  private readonly share = new Float64Array(4);
   private readonly low = new Int32Array(4);
   private readonly part = new Float64Array(4);
 
-  private look(share: Float64Array, sum: Float64Array): void {
-    const { low, part, half } = this,
+  protected look(wi: Vector, wo: Vector, sum: Float64Array): void {
+    const right = Math.PI / 2,
+      turn = 2 * Math.PI,
+      phi = wi[0] || wi[1] ? Math.atan2(-wi[1], -wi[0]) : 0,
+      other = wo[0] || wo[1] ? Math.atan2(-wo[1], -wo[0]) : 0,
+      between = fraction((other - phi) / turn);
+    this.share[0] = Math.atan2(Math.hypot(wi[0], wi[1]), wi[2]) / right;
+    this.share[1] = Math.atan2(Math.hypot(wo[0], wo[1]), wo[2]) / right;
+    this.share[2] = this.data.isHalfTurn ? 2 * Math.min(between, 1 - between) : between;
+    this.share[3] = fraction(phi / turn);
+    this.interpolate(sum);
+  }
+
+  /** Linear between the bins around `share`. */
+  private interpolate(sum: Float64Array): void {
+    const { share, low, part, half } = this,
       { bins, isHalfTurn, values } = this.data;
     for (let k = 0; k < 4; k++) {
       const at = share[k] * bins[k] - 0.5;

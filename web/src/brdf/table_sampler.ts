@@ -4,16 +4,16 @@
  * the mirror's direction: rings, whose angles are cubes as lobes are narrow there, cut into sectors.  A cell is drawn by
  * what it gives, and a direction evenly over its solid angle.  Between two angles of the viewer both tables are used, by a
  * coin; one direction in eight has the density of the cosine, so that nothing that the tables miss is too rare.  The
- * density is that of this very mixture.  TABLE_GLSL is the same for shaders.
+ * density is that of this very mixture.  gl/table_glsl.ts is the same for shaders.
  * SPDX-License-Identifier: MIT */
 import { DEGREE, direction } from "./angles";
 import { newDirections, sameDirections, setDirection, type Brdf, type Directions, type Sampling } from "./brdf";
 
 export const RINGS = 64,
-  SECTORS = 64;
-const EVEN = 0.125,
-  LAST_THETA = 89, // degrees
-  LAYER = 2 * SECTORS * (RINGS + 1);
+  SECTORS = 64,
+  EVEN = 0.125,
+  LAST_THETA = 89; // degrees
+const LAYER = 2 * SECTORS * (RINGS + 1);
 
 export interface Tables {
   /** Angles of the viewer from 0 to LAST_THETA, and azimuths of the mirror's direction from 0 on. */

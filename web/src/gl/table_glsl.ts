@@ -2,12 +2,13 @@
  *
  * SPDX-License-Identifier: MIT */
 import type { Brdf } from "../brdf/brdf";
-import { RINGS, SECTORS, tableSampler, type TableSampler } from "../brdf/table_sampler";
+import { EVEN, LAST_THETA, RINGS, SECTORS, tableSampler, type TableSampler } from "../brdf/table_sampler";
 
 export const TABLE_SAMPLER = `
 uniform highp sampler2DArray directions_table;
 uniform vec2 directions_size; // angles, azimuths
-const float TABLE_RINGS = ${RINGS}.0, TABLE_SECTORS = ${SECTORS}.0, TABLE_EVEN = 0.125;
+const float TABLE_RINGS = ${RINGS}.0, TABLE_SECTORS = ${SECTORS}.0, TABLE_EVEN = ${EVEN};
+const float TABLE_LAST_THETA = ${LAST_THETA}.0*3.14159265/180.0;
 float table_versine(float ring)
 {
     float x = ring/TABLE_RINGS, s = sin(1.57079633*x*x*x);
@@ -23,7 +24,7 @@ mat3 table_frame(vec3 wo)
 int table_layer(vec3 wo, out float part)
 {
     float s = length(wo.xy), last = directions_size.x - 1.0;
-    float at = min(last, atan(s, wo.z)*(last/1.55334303)), k = min(floor(at), last - 1.0);
+    float at = min(last, atan(s, wo.z)*(last/TABLE_LAST_THETA)), k = min(floor(at), last - 1.0);
     float turn = s > 1e-6 ? atan(-wo.y, -wo.x)/6.28318531 : 0.0;
     float j = mod(floor(fract(turn)*directions_size.y + 0.5), directions_size.y);
     part = at - k;

@@ -8,12 +8,14 @@ import { FacetBrdf } from "../facet/facet_brdf";
 import { specText, type Settings } from "../facet/library";
 import { useAround } from "../session";
 import { nextId, selectedEntry, type Entry, type State } from "../state/state";
+import type { Store } from "../state/store";
 import { DASHES, lineColour } from "../state/theme";
 import { resetParameter, setParameter } from "./change";
 import { IconButton } from "./icons";
 import { Parameters } from "./parameters";
 
-function replaced(state: State, id: number, change: Partial<Entry>): { entries: Entry[] } {
+/* What events change is the store's state: what was drawn last may be a frame old. */
+function replaced({ state }: Store, id: number, change: Partial<Entry>): { entries: Entry[] } {
   return { entries: state.entries.map(entry => (entry.id === id ? { ...entry, ...change } : entry)) };
 }
 
@@ -51,17 +53,18 @@ function EntryRow({ entry, place, state }: { entry: Entry; place: number; state:
     if (!isSelected) store.step({ selected: entry.id });
   };
   const remove = (): void => {
-    const entries = state.entries.filter(one => one.id !== entry.id);
+    const entries = store.state.entries.filter(one => one.id !== entry.id);
     store.step({
       entries,
-      solo: state.solo === entry.id ? 0 : state.solo,
+      solo: store.state.solo === entry.id ? 0 : store.state.solo,
       selected: entries[Math.max(0, place - 1)]?.id ?? 0,
     });
   };
   const copy = (): void => {
-    const id = nextId(state);
+    const { entries } = store.state,
+      id = nextId(store.state);
     store.step({
-      entries: [...state.entries.slice(0, place + 1), { ...entry, id }, ...state.entries.slice(place + 1)],
+      entries: [...entries.slice(0, place + 1), { ...entry, id }, ...entries.slice(place + 1)],
       selected: id,
     });
   };
@@ -78,19 +81,19 @@ function EntryRow({ entry, place, state }: { entry: Entry; place: number; state:
         key={entry.text}
         onFocus={select}
         aria-invalid={resolved.problem !== undefined}
-        onChange={event => store.step(replaced(state, entry.id, { text: event.currentTarget.value.trim() }))}
+        onChange={event => store.step(replaced(store, entry.id, { text: event.currentTarget.value.trim() }))}
       />
       <span class="tools">
         <IconButton
           name={entry.isHidden ? "hidden" : "eye"}
           label={entry.isHidden ? "show" : "hide"}
-          onClick={() => store.step(replaced(state, entry.id, { isHidden: !entry.isHidden }))}
+          onClick={() => store.step(replaced(store, entry.id, { isHidden: !entry.isHidden }))}
         />
         <IconButton
           name="solo"
           label="show this one alone"
           isOn={state.solo === entry.id}
-          onClick={() => store.step({ solo: state.solo === entry.id ? 0 : entry.id })}
+          onClick={() => store.step({ solo: store.state.solo === entry.id ? 0 : entry.id })}
         />
         <IconButton name="copy" label="copy" onClick={copy} />
         <IconButton name="remove" label="remove" onClick={remove} />
@@ -104,11 +107,11 @@ function EntryRow({ entry, place, state }: { entry: Entry; place: number; state:
   );
 }
 
-function AddMenu({ state, fits, open }: { state: State; fits: readonly string[]; open: () => void }): JSX.Element {
+function AddMenu({ fits, open }: { fits: readonly string[]; open: () => void }): JSX.Element {
   const { facet, store } = useAround();
   const add = (text: string): void => {
-    const id = nextId(state);
-    store.step({ entries: [...state.entries, { id, text, isHidden: false }], selected: id });
+    const id = nextId(store.state);
+    store.step({ entries: [...store.state.entries, { id, text, isHidden: false }], selected: id });
   };
   return (
     <div class="add">
@@ -166,7 +169,7 @@ export function Materials({
   const change = (text: string | undefined, isStep: boolean): void => {
     if (!entry) return;
     setRefused(text === undefined ? "The library takes this value with none of the others." : "");
-    if (text !== undefined) store[isStep ? "step" : "slide"](replaced(state, entry.id, { text }));
+    if (text !== undefined) store[isStep ? "step" : "slide"](replaced(store, entry.id, { text }));
   };
   return (
     <>
@@ -175,7 +178,7 @@ export function Materials({
           <EntryRow key={one.id} entry={one} place={place} state={state} />
         ))}
       </ul>
-      <AddMenu state={state} fits={fits} open={open} />
+      <AddMenu fits={fits} open={open} />
       {settings && (
         <section class="selected">
           <h2>{settings.model.name}</h2>

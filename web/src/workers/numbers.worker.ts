@@ -30,10 +30,14 @@ async function answer(request: Request): Promise<unknown> {
       return facet.prepare(request.text).albedo(request.wo);
     case "furnace":
       return (await checks()).furnace(request.text, request.wo);
-    case "chi-square":
-      return twice((await checks()).chiSquare.bind(await checks(), request.text, request.wo, request.n));
-    case "table-chi-square":
-      return twice(chiSquareOf.bind(null, new TableSampler(request.tables), request.wo, request.n));
+    case "chi-square": {
+      const loaded = await checks();
+      return twice(seed => loaded.chiSquare(request.text, request.wo, request.n, seed));
+    }
+    case "table-chi-square": {
+      const sampler = new TableSampler(request.tables);
+      return twice(seed => chiSquareOf(sampler, request.wo, request.n, seed));
+    }
   }
 }
 
