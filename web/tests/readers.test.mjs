@@ -217,6 +217,17 @@ for (const half of [0, 1])
     }
   });
 
+test("azimuths go on from the last bin to the first", async () => {
+  const ramp = k => async at => {
+    const data = await readMit("made.dat", new Blob([mit([2, 2, 8, 8], (...angles) => Array(3).fill(angles[k]))]));
+    const { wi, wo } = directionsOf(...at);
+    return new MitBrdf("made.dat", data).eval(wi, wo).r[0] / wi.z[0];
+  };
+  // Halfway between pi/8 and 15 pi/8, to the precision of half floats.
+  const values = [await ramp(2)([0.5, 0.6, 0, 1]), await ramp(3)([0.5, 0.6, 1, 0])];
+  for (const value of values) assert.ok(Math.abs(value / Math.PI - 1) < 1e-3, `${value}`);
+});
+
 test("bins that were not measured take no part, and neighbours of large files become one", async () => {
   const holes = (ti, to, pd, pi) => (Math.abs(pi - 1.77) < 0.1 ? [-1, -1, -1] : measured(ti, to, pd, pi)),
     data = await readMit("made.dat", new Blob([mit([4, 4, 8, 16], holes)])),
