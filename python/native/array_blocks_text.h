@@ -11,7 +11,7 @@ typedef struct NAME(window) {
     int parts;
     array_cursor at;
     REAL *part[3], *next[3]; /* next: of ARRAY_COLUMNS */
-    REAL copy[3][ARRAY_LARGEST_BLOCK];
+    REAL copy[3][ARRAY_LARGEST_COPY];
 } NAME(window);
 
 /* An output that is not wanted has no layout: nobody asks for its blocks. */
@@ -32,13 +32,13 @@ static void NAME(open_input)(NAME(window)*w, const facet_python_array *array)
     NAME(open_output)(w, array, 3);
     w->layout = array_layout_of(&w->at, 3, sizeof(REAL));
     if (w->layout != ARRAY_ONE) return;
-    const size_t n = w->at.shape[0] < ARRAY_LARGEST_BLOCK ? w->at.shape[0] : ARRAY_LARGEST_BLOCK;
+    const size_t n = w->at.shape[0] < ARRAY_LARGEST_COPY ? w->at.shape[0] : ARRAY_LARGEST_COPY;
     for (int k = 0; k < 3; k++)
         for (size_t i = 0; i < n; i++) w->copy[k][i] = *(const REAL *)(const void *)(w->at.at + k*w->at.component);
 }
 
 /* A run of any strides, from and to a copy. */
-static void NAME(gather)(const array_cursor *c, size_t n, int parts, REAL copy[3][ARRAY_LARGEST_BLOCK], size_t first)
+static void NAME(gather)(const array_cursor *c, size_t n, int parts, REAL copy[3][ARRAY_LARGEST_COPY], size_t first)
 {
     const ptrdiff_t stride = c->strides[c->n_axes - 1];
     for (int k = 0; k < parts; k++) {
@@ -50,7 +50,7 @@ static void NAME(gather)(const array_cursor *c, size_t n, int parts, REAL copy[3
     }
 }
 
-static void NAME(scatter)(const array_cursor *c, size_t n, int parts, REAL copy[3][ARRAY_LARGEST_BLOCK], size_t first)
+static void NAME(scatter)(const array_cursor *c, size_t n, int parts, REAL copy[3][ARRAY_LARGEST_COPY], size_t first)
 {
     const ptrdiff_t stride = c->strides[c->n_axes - 1];
     for (int k = 0; k < parts; k++) {
@@ -60,7 +60,7 @@ static void NAME(scatter)(const array_cursor *c, size_t n, int parts, REAL copy[
 }
 
 /* Triples x, y, z after one another, from and to a copy. */
-EACH_ISA static void NAME(gather_rows)(const REAL *from, size_t n, REAL copy[3][ARRAY_LARGEST_BLOCK])
+EACH_ISA static void NAME(gather_rows)(const REAL *from, size_t n, REAL copy[3][ARRAY_LARGEST_COPY])
 {
     REAL *const x = copy[0], *const y = copy[1], *const z = copy[2];
     for (size_t i = 0; i < n; i++) {
@@ -70,7 +70,7 @@ EACH_ISA static void NAME(gather_rows)(const REAL *from, size_t n, REAL copy[3][
     }
 }
 
-EACH_ISA static void NAME(scatter_rows)(REAL *to, size_t n, REAL copy[3][ARRAY_LARGEST_BLOCK])
+EACH_ISA static void NAME(scatter_rows)(REAL *to, size_t n, REAL copy[3][ARRAY_LARGEST_COPY])
 {
     const REAL *const x = copy[0], *const y = copy[1], *const z = copy[2];
     for (size_t i = 0; i < n; i++) {
@@ -137,14 +137,19 @@ static inline void NAME(write)(NAME(window)*w, size_t n)
 
 /* ---- Whether inputs are what they must be ------------------------------------------------------ */
 
-/* |x| as an integer, which has the order of numbers, NaN above all. */
-static inline BITS NAME(magnitude)(REAL x)
+static inline BITS NAME(bits)(REAL x)
 {
     const union {
         REAL x;
         BITS bits;
     } u = {x};
-    return u.bits & ((BITS)-1 >> 1);
+    return u.bits;
+}
+
+/* |x| as an integer, which has the order of numbers, NaN above all. */
+static inline BITS NAME(magnitude)(REAL x)
+{
+    return NAME(bits)(x) & ((BITS)-1 >> 1);
 }
 
 /* How far |w|^2 is from 1. */
@@ -183,15 +188,21 @@ static int NAME(are_units)(const NAME(window)*a, const NAME(window)*b, size_t n)
     return NAME(largest_excess)(a, b, n) <= NAME(magnitude)((REAL)FACET_PYTHON_UNIT);
 }
 
-/* Whether those of `a` are unit vectors, and those of `b` in the unit cube. */
+/* Whether those of `a` are unit vectors, and those of `b` in the unit cube: numbers from 0 up have the order of their bits,
+ * and those of negative ones and of NaN are above 1's.  -0 thus looks wrong, and tell() finds that it is not. */
 EACH_ISA static int NAME(are_units_and_in_cube)(const NAME(window)*a, const NAME(window)*b, size_t n)
 {
     const REAL *const x = a->part[0], *const y = a->part[1], *const z = a->part[2];
     const REAL *const u = b->part[0], *const v = b->part[1], *const w = b->part[2];
-    int are_right = 1;
-#pragma omp simd reduction(& : are_right)
-    for (size_t i = 0; i < n; i++) are_right &= NAME(is_unit)(x[i], y[i], z[i]) & NAME(is_in_cube)(u[i], v[i], w[i]);
-    return are_right;
+    BITS distance = 0, number = 0;
+#pragma omp simd reduction(max : distance, number)
+    for (size_t i = 0; i < n; i++) {
+        const BITS d = NAME(excess)(x[i], y[i], z[i]), p = NAME(bits)(u[i]), q = NAME(bits)(v[i]), r = NAME(bits)(w[i]);
+        const BITS larger = p > q ? p : q, largest = larger > r ? larger : r;
+        distance = d > distance ? d : distance;
+        number = largest > number ? largest : number;
+    }
+    return distance <= NAME(magnitude)((REAL)FACET_PYTHON_UNIT) && number < NAME(bits)(1);
 }
 
 /* Names the first element that is not what is_right wants, of those at elements first, first + 1, ...; false if there

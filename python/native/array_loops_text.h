@@ -103,7 +103,7 @@ static int NAME(check_draw)(const NAME(window)*wo, const NAME(window)*u, size_t 
 int PUBLIC(eval)(const BSDF *bsdf, size_t n, const facet_python_array *wi, const facet_python_array *wo,
                  const facet_python_array *f, const facet_python_array *pdf, facet_python_fault *fault)
 {
-    const size_t size = f->data ? ARRAY_BLOCK : ARRAY_LARGEST_BLOCK;
+    const size_t size = f->data ? ARRAY_BLOCK : ARRAY_LARGEST_COPY;
     NAME(window) i, o, value, density;
     NAME(open_input)(&i, wi);
     NAME(open_input)(&o, wo);
@@ -136,8 +136,11 @@ int PUBLIC(sample)(const BSDF *bsdf, size_t n, const facet_python_array *wo, con
     NAME(open_output)(&density, &samples->pdf, 1);
     NAME(open_output)(&weight, &samples->weight, 3);
     NAME(open_output)(&eta, &samples->eta, 1);
-    const size_t size = o.layout == ARRAY_ROWS || i.layout == ARRAY_ROWS ? ARRAY_BLOCK : ARRAY_LARGEST_BLOCK;
-    int32_t lobe[ARRAY_LARGEST_BLOCK] = {0};
+    const int has_rows = o.layout == ARRAY_ROWS || i.layout == ARRAY_ROWS,
+              has_columns = o.layout == ARRAY_COLUMNS && x.layout == ARRAY_COLUMNS && i.layout == ARRAY_COLUMNS &&
+                            density.layout == ARRAY_COLUMNS && weight.layout == ARRAY_COLUMNS && !has_lobes;
+    const size_t size = has_rows ? ARRAY_BLOCK : has_columns ? ARRAY_SAMPLES : ARRAY_LARGEST_COPY;
+    int32_t lobe[ARRAY_LARGEST_COPY] = {0};
     EACH_BLOCK(n, size)
     {
         NAME(read)(&o, some);

@@ -129,6 +129,18 @@ def test_blocks_meet_without_a_seam(data: st.DataObject, n: int) -> None:
     np.testing.assert_array_equal(m.sample(gapped, u).weight, weights)
 
 
+@pytest.mark.parametrize("n", [1, 2047, 2048, 2049, 5000])
+def test_columns_of_samples_meet_without_a_seam(n: int) -> None:
+    """Their blocks are larger than those of rows."""
+    rng = np.random.default_rng(n)
+    wo, u, m = unit_vectors(rng, n, above=True), rng.random((n, 3), np.float32), facet.ggx(alpha=0.4)
+    u[::1000, 1] = -0.0  # a number in [0, 1)
+    rows, columns = m.sample(wo, u), m.sample(np.asfortranarray(wo), np.asfortranarray(u))
+    assert columns.weight.flags.f_contiguous
+    for got, expected in zip(columns, rows):
+        np.testing.assert_array_equal(got, expected)
+
+
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
 @pytest.mark.parametrize("n", [1, 128, 256, 257, 1000])
 def test_one_direction_goes_with_many(n: int, dtype: type) -> None:
@@ -149,20 +161,21 @@ def test_an_output_that_is_one_number_holds_the_last() -> None:
     assert m.pdf(wi, wo, out=out)[0] == m.pdf(wi, wo)[-1]
 
 
-@pytest.mark.parametrize("place", [0, 127, 128, 300, 999])
+@pytest.mark.parametrize("place", [0, 127, 128, 300, 2048, 2499])
 @pytest.mark.parametrize("lay", [np.ascontiguousarray, np.asfortranarray, lambda a: np.repeat(a, 2, axis=0)[::2]])
 def test_a_fault_is_found_in_any_block(lay: Callable[[np.ndarray], np.ndarray], place: int) -> None:
-    good = unit_vectors(np.random.default_rng(place), 1000)
+    good = unit_vectors(np.random.default_rng(place), 2500)
     bad = good.copy()
     bad[place:, 1] += 0.5
     bad, m = lay(bad), facet.lambert()
     for call in (lambda: m.eval(bad, good), lambda: m.pdf(bad, good), lambda: m.eval_pdf(bad, [0, 0, 1])):
         with pytest.raises(ValueError, match=rf"wi\[{place}\] is "):
             call()
-    u = np.full((1000, 3), 0.5, np.float32)
-    u[place, 2] = 1
-    with pytest.raises(ValueError, match=rf"u\[{place}\] is "):
-        m.sample(good, lay(u))
+    u = np.full((2500, 3), 0.5, np.float32)
+    for wrong in (1, -0.5, np.nan):
+        u[place, 2] = wrong
+        with pytest.raises(ValueError, match=rf"u\[{place}\] is "):
+            m.sample(lay(good), lay(u))
 
 
 def test_a_fault_is_named_where_it_is() -> None:
