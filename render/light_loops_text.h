@@ -76,13 +76,13 @@ static void choose_light(uint32_t n_triangles, const light_triangle *triangles, 
 /* What is drawn at the top for each point of a block. */
 typedef struct light_top {
     float weights[LIGHT_TREE_TOP][BLOCK];
-    double sum[BLOCK], at[BLOCK], end[BLOCK], begin[BLOCK];
+    double sum[BLOCK], at[BLOCK], end[BLOCK], begin[BLOCK]; /* sum: the distant weight included */
     float weight[BLOCK];
     uint32_t which[BLOCK];
 } light_top;
 
-/* As light_tree_draw does. */
-static void draw_top(const light_tree *tree, light_receivers to, const double *u, light_top *b)
+/* As light_tree_draw does; what is distant comes last. */
+static void draw_top(const light_tree *tree, light_receivers to, const float *distant, const double *u, light_top *b)
 {
     EACH_LANE(i) b->sum[i] = 0;
     for (uint32_t k = 0; k < tree->n_top; k++) {
@@ -93,6 +93,8 @@ static void draw_top(const light_tree *tree, light_receivers to, const double *u
     }
     EACH_LANE(i)
     {
+        to.weight[i] = (float)b->sum[i];
+        b->sum[i] += (double)distant[i];
         b->at[i] = u[i]*b->sum[i];
         b->end[i] = b->begin[i] = 0;
         b->weight[i] = 0;
@@ -109,12 +111,19 @@ static void draw_top(const light_tree *tree, light_receivers to, const double *u
             b->end[i] += (double)weights[i];
         }
     }
+    EACH_LANE(i)
+    {
+        const int takes = (b->at[i] >= b->end[i]) & (distant[i] > 0);
+        b->which[i] = takes ? LIGHT_DISTANT : b->which[i];
+        b->weight[i] = takes ? distant[i] : b->weight[i];
+        b->begin[i] = takes ? b->end[i] : b->begin[i];
+    }
 }
 
 /* All points of a block go down the tree together, so that the processor has other points to weigh for while it waits
  * for one's node. */
-static void walk_light_tree(const light_tree *tree, size_t n, light_receivers to, double *u, uint32_t *which,
-                            float *probability)
+static void walk_light_tree(const light_tree *tree, size_t n, light_receivers to, const float *distant, double *u,
+                            uint32_t *which, float *probability)
 {
     for (size_t first = 0; first < n; first += BLOCK) {
         const size_t some = n - first < BLOCK ? n - first : BLOCK;
@@ -122,13 +131,17 @@ static void walk_light_tree(const light_tree *tree, size_t n, light_receivers to
         uint32_t next[BLOCK];
         double product[BLOCK] = {0};
         light_top top;
-        draw_top(tree, receivers_from(to, first), u + first, &top);
+        draw_top(tree, receivers_from(to, first), distant + first, u + first, &top);
         for (size_t i = 0; i < some; i++) {
             const double weight = (double)top.weight[i], rest = (top.at[i] - top.begin[i])/weight;
             next[i] = LIGHT_NODE_LEAF;
             product[i] = weight > 0 ? weight/top.sum[i] : 0;
             if (!(weight > 0)) continue;
             u[first + i] = rest < 1 ? rest : 0;
+            if (top.which[i] == LIGHT_DISTANT) {
+                next[i] = LIGHT_DISTANT;
+                continue;
+            }
             next[i] = tree->nodes[top.which[i]/LIGHT_NODE_WIDTH].child[top.which[i]%LIGHT_NODE_WIDTH];
             if (next[i] & LIGHT_NODE_LEAF) continue;
             expect_light_node(&tree->nodes[next[i]]);
@@ -147,7 +160,7 @@ static void walk_light_tree(const light_tree *tree, size_t n, light_receivers to
             n_open = n_kept;
         }
         for (size_t i = 0; i < some; i++) {
-            which[first + i] = next[i] & ~LIGHT_NODE_LEAF;
+            which[first + i] = next[i] == LIGHT_DISTANT ? next[i] : next[i] & ~LIGHT_NODE_LEAF;
             probability[first + i] = (float)product[i];
         }
     }

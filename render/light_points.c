@@ -162,12 +162,18 @@ static uint32_t draw_weighted(const float *weights, uint32_t n, float sum, doubl
     return index;
 }
 
+/* About what is taken up of the light of those that are equally far from all points. */
+static float weight_of_distant(const light_set *set, const light_receiver *to)
+{
+    return set->distant_weight*INV_PI*light_received_of_all(*to);
+}
+
 /* The probability that one of many emitters is chosen among those with a place. */
 static float share_of_placed(const light_set *set, const light_receiver *to)
 {
     if (!(set->distant_weight > 0)) return 1;
     const float placed = light_tree_weight(&set->placed, to);
-    return placed/(placed + set->distant_weight*INV_PI*light_received_of_all(*to));
+    return placed/(placed + weight_of_distant(set, to));
 }
 
 /* One of those that are equally far from all points. */
@@ -180,25 +186,20 @@ static uint32_t choose_distant(const light_set *set, double *u, float *probabili
     return set->n_placed + index;
 }
 
-/* choose_emitter by the tree, for a block of points. */
+/* choose_emitter by the tree, for a block of points; u: room for whole vectors. */
 static void choose_of_many(const light_set *set, size_t n, light_receivers to, double *u, uint32_t *which,
                            float *probability)
 {
-    float shares[LOOP_LANES] = {0};
-    uint32_t is_distant[LOOP_LANES] = {0};
-    for (size_t i = 0; i < n; i++) {
+    float distant[LOOP_LANES] = {0};
+    for (size_t i = 0; i < n && set->distant_weight > 0; i++) {
         const light_receiver at = receiver_at(to, i);
-        const float share = share_of_placed(set, &at), both[2] = {share, 1 - share};
-        is_distant[i] = draw_weighted(both, 2, 1, &u[i]);
-        shares[i] = both[is_distant[i]];
+        distant[i] = weight_of_distant(set, &at);
     }
-    double placed[LOOP_LANES] = {0};
-    memcpy(placed, u, n*sizeof *placed);
-    render_loops_chosen()->walk_light_tree(&set->placed, n, to, placed, which, probability);
+    render_loops_chosen()->walk_light_tree(&set->placed, n, to, distant, u, which, probability);
     for (size_t i = 0; i < n; i++) {
-        if (is_distant[i]) which[i] = choose_distant(set, &u[i], &probability[i]);
-        else u[i] = placed[i];
-        probability[i] *= shares[i];
+        float of_distant = 1;
+        if (which[i] == LIGHT_DISTANT) which[i] = choose_distant(set, &u[i], &of_distant);
+        probability[i] *= of_distant;
     }
 }
 
@@ -279,7 +280,7 @@ static void sample_block(const light_set *set, size_t n, light_receivers to, uin
     const light_triangle *chosen[LOOP_LANES];
     uint32_t which[LOOP_LANES];
     float probability[LOOP_LANES] = {0};
-    double choice[LOOP_LANES];
+    double choice[LOOP_LANES] = {0};
     /* Choosing among many takes more digits than u[0] has, and the sky's texel what is left of them. */
     for (size_t i = 0; i < n; i++)
         choice[i] = (double)u[0][i]*0x1p-32 + (double)hash_pair(u[0][i], u[1][i] ^ u[2][i])*0x1p-64;
@@ -332,7 +333,7 @@ void light_set_sample_many(const light_set *set, size_t n, light_receivers to, u
 
 light_sample light_set_sample(const light_set *set, const light_receiver *to, const uint32_t u[3])
 {
-    float at[13][LOOP_LANES], found[10][LOOP_LANES];
+    float at[14][LOOP_LANES], found[10][LOOP_LANES];
     uint32_t room[3][LOOP_LANES], is_infinite[LOOP_LANES], is_delta[LOOP_LANES];
     uint32_t *const numbers[3] = {room[0], room[1], room[2]};
     for (int i = 0; i < LOOP_LANES; i++) {
@@ -346,10 +347,11 @@ light_sample light_set_sample(const light_set *set, const light_receiver *to, co
         at[10][i] = to->broad;
         at[11][i] = to->peak;
         at[12][i] = to->width;
+        at[13][i] = to->weight;
         for (int k = 0; k < 3; k++) room[k][i] = u[k];
     }
     const light_receivers receivers = {
-        {at[0], at[1], at[2]}, {at[3], at[4], at[5]}, {at[6], at[7], at[8]}, at[9], at[10], at[11], at[12]};
+        {at[0], at[1], at[2]}, {at[3], at[4], at[5]}, {at[6], at[7], at[8]}, at[9], at[10], at[11], at[12], at[13]};
     light_set_sample_many(set, 1, receivers, numbers,
                           (light_samples){.direction = {found[0], found[1], found[2]},
                                           .target = {found[3], found[4], found[5]},

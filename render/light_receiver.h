@@ -20,6 +20,7 @@ typedef struct light_receiver {
     real3 position;
     real3 normal, mirror; /* unit; both 0: light is taken up from all around alike */
     float around, broad, peak, width;
+    float weight; /* light_tree_weight here, once the tree has been walked; 0: not yet */
 } light_receiver;
 
 /* The least of `around`: what a light has where the surface seems to take up nothing. */
@@ -28,13 +29,13 @@ typedef struct light_receiver {
 /* The same for many points; all but the positions are of use to those who say so (lights.h). */
 typedef struct light_receivers {
     vectors position, normal, mirror;
-    float *around, *broad, *peak, *width;
+    float *around, *broad, *peak, *width, *weight;
 } light_receivers;
 
 static inline light_receiver receiver_anywhere(real3 position)
 {
     const real3 none = splat3(0);
-    const light_receiver to = {position, none, none, 1, 0, 0, 1};
+    const light_receiver to = {position, none, none, 1, 0, 0, 1, 0};
     return to;
 }
 
@@ -47,8 +48,8 @@ static inline light_receiver receiver_at(light_receivers many, size_t i)
 {
     const real3 normal = make3(many.normal.x[i], many.normal.y[i], many.normal.z[i]);
     const real3 mirror = make3(many.mirror.x[i], many.mirror.y[i], many.mirror.z[i]);
-    const light_receiver to = {position_at(many, i), normal,       mirror,       many.around[i],
-                               many.broad[i],        many.peak[i], many.width[i]};
+    const light_receiver to = {position_at(many, i), normal,       mirror,        many.around[i],
+                               many.broad[i],        many.peak[i], many.width[i], many.weight[i]};
     return to;
 }
 
@@ -60,7 +61,8 @@ static inline light_receivers receivers_from(light_receivers many, size_t first)
                                   many.around + first,
                                   many.broad + first,
                                   many.peak + first,
-                                  many.width + first};
+                                  many.width + first,
+                                  many.weight + first};
     return rest;
 }
 

@@ -23,10 +23,15 @@ static double weigh_top(const light_tree *tree, const light_receiver *to, float 
     return sum;
 }
 
-float light_tree_weight(const light_tree *tree, const light_receiver *to)
+static double weight_of(const light_tree *tree, const light_receiver *to)
 {
     float weights[LIGHT_TREE_TOP];
-    return (float)weigh_top(tree, to, weights);
+    return to->weight > 0 ? (double)to->weight : weigh_top(tree, to, weights);
+}
+
+float light_tree_weight(const light_tree *tree, const light_receiver *to)
+{
+    return (float)weight_of(tree, to);
 }
 
 double light_tree_draw(const light_tree *tree, const light_receiver *to, double *u, uint32_t *light)
@@ -65,7 +70,8 @@ double light_tree_probability(const light_tree *tree, const light_receiver *to, 
         if (!(weight > 0)) return 0;
         probability *= (double)(weight/sum);
     }
-    float weights[LIGHT_TREE_TOP];
-    const double sum = weigh_top(tree, to, weights);
-    return weights[place] > 0 ? probability*((double)weights[place]/sum) : 0;
+    float weights[WIDTH];
+    light_node_weigh(&tree->nodes[place/WIDTH], to, weights);
+    const double weight = (double)weights[place%WIDTH];
+    return weight > 0 ? probability*(weight/weight_of(tree, to)) : 0;
 }

@@ -46,6 +46,9 @@ typedef struct light_node {
 
 #define LIGHT_NODE_LEAF (1u << 31)
 
+/* In place of a light of the tree: what lies at a distance has been drawn (loops.h). */
+#define LIGHT_DISTANT UINT32_MAX
+
 /* About 100 bytes a light. */
 typedef struct light_tree {
     light_node *nodes; /* those of the top first; NULL: no light shines */
@@ -58,7 +61,8 @@ typedef struct light_tree {
 facet_status light_tree_create(const placed_light *lights, uint32_t n, light_tree *result);
 void light_tree_destroy(light_tree *tree);
 
-/* About what is taken up of the light at a point [W/m^2], luminance; the irradiance where all is. */
+/* About what is taken up of the light at a point [W/m^2], luminance; the irradiance where all is.  The receiver's own
+ * figure if it has one. */
 float light_tree_weight(const light_tree *tree, const light_receiver *to);
 
 /* Draws a light by *u in [0,1), of which it leaves the rest, again in [0,1).  The probability of that light; 0: none,

@@ -73,6 +73,7 @@ static void receive(vertex_list *v)
             v->receiver.broad[k] = keep_if(is_opaque, broad);
             v->receiver.peak[k] = keep_if(is_opaque, kmin(rest, 1e7f));
             v->receiver.width[k] = kmin(kmax(width, 1e-8f), 1);
+            v->receiver.weight[k] = 0;
         }
 }
 

@@ -74,7 +74,8 @@ static light_receiver receiver_of(const path_context *c, const path_list *list, 
                             r->around[i],
                             r->broad[i],
                             r->peak[i],
-                            r->width[i]};
+                            r->width[i],
+                            r->weight[i]};
 }
 
 static void gather_sky(path_batch *batch, const path_context *c, const path_list *list, uint32_t i, real2 place)

@@ -41,6 +41,7 @@ static void copy_receiver(receiver_array *to, uint32_t i, const receiver_array *
     to->broad[i] = from->broad[k];
     to->peak[i] = from->peak[k];
     to->width[i] = from->width[k];
+    to->weight[i] = from->weight[k];
 }
 
 /* Extends paths by scattered rays, into the next list.  [cs500, "Extend path"]. */

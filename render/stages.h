@@ -42,7 +42,7 @@ typedef struct ray_array {
 /* Where light is taken up (light_receiver.h), beside the position. */
 typedef struct receiver_array {
     vector_array normal, mirror;
-    float around[ROOM], broad[ROOM], peak[ROOM], width[ROOM];
+    float around[ROOM], broad[ROOM], peak[ROOM], width[ROOM], weight[ROOM];
 } receiver_array;
 
 /* Paths that go on, and the ray that each follows, of unit direction.  Those that end are left out of the next list. */
@@ -139,8 +139,14 @@ static inline vectors vectors_of(vector_array *a)
 
 static inline light_receivers receivers_of(vector_array *position, receiver_array *a)
 {
-    return (light_receivers){
-        vectors_of(position), vectors_of(&a->normal), vectors_of(&a->mirror), a->around, a->broad, a->peak, a->width};
+    return (light_receivers){vectors_of(position),
+                             vectors_of(&a->normal),
+                             vectors_of(&a->mirror),
+                             a->around,
+                             a->broad,
+                             a->peak,
+                             a->width,
+                             a->weight};
 }
 
 static inline rays rays_of(ray_array *a)

@@ -12,6 +12,7 @@
 
 #include <cmocka.h>
 
+#include "render/loops.h"
 #include "tests/draws.h"
 #include "tests/scene_builder.h"
 #include "verify/chi_square.h"
@@ -160,6 +161,109 @@ static void the_rest_is_uniform(void **state)
     }
     for (int i = 0; i < CELLS; i++) expected[i] = (double)COUNT/CELLS;
     assert_true(chi_square_test(expected, observed, CELLS).p > 1e-3);
+    light_tree_destroy(&tree);
+}
+
+/* Receivers as the loops want them. */
+typedef struct receiver_block {
+    float at[14][LOOP_LANES];
+} receiver_block;
+
+static light_receivers receivers_in(receiver_block *b)
+{
+    float(*at)[LOOP_LANES] = b->at;
+    return (light_receivers){
+        {at[0], at[1], at[2]}, {at[3], at[4], at[5]}, {at[6], at[7], at[8]}, at[9], at[10], at[11], at[12], at[13]};
+}
+
+static void put_receiver(receiver_block *b, size_t i, const light_receiver *to)
+{
+    const real3 given[3] = {to->position, to->normal, to->mirror};
+    for (int k = 0; k < 3; k++) {
+        b->at[3*k][i] = given[k].x;
+        b->at[3*k + 1][i] = given[k].y;
+        b->at[3*k + 2][i] = given[k].z;
+    }
+    b->at[9][i] = to->around;
+    b->at[10][i] = to->broad;
+    b->at[11][i] = to->peak;
+    b->at[12][i] = to->width;
+    b->at[13][i] = to->weight;
+}
+
+/* A walk of many points, as light_tree_draw of each, but that what is distant has the upper part of the numbers. */
+static void walks_share_numbers_with_what_is_distant(void **state)
+{
+    (void)state;
+    enum { N = 300 };
+    static placed_light lights[N];
+    static receiver_block block;
+    draws d = {11};
+    for (uint32_t i = 0; i < N; i++) lights[i] = random_light(&d, MIXED);
+    light_tree tree = tree_of(lights, N);
+    int n_distant = 0, n_placed = 0;
+    for (int round = 0; round < 100; round++) {
+        float distant[LOOP_LANES], probability[LOOP_LANES];
+        double number[LOOP_LANES], u[LOOP_LANES];
+        uint32_t which[LOOP_LANES];
+        for (size_t i = 0; i < LOOP_LANES; i++) {
+            const light_receiver to = random_receiver(&d);
+            put_receiver(&block, i, &to);
+            distant[i] = i%4 == 0 ? 0 : light_tree_weight(&tree, &to)*(float)draw_log(&d, 1e-2, 1e2);
+            u[i] = number[i] = draw(&d) + draw(&d)*0x1p-24;
+        }
+        render_loops_chosen()->walk_light_tree(&tree, LOOP_LANES, receivers_in(&block), distant, u, which, probability);
+        for (size_t i = 0; i < LOOP_LANES; i++) {
+            light_receiver to = receiver_at(receivers_in(&block), i);
+            const double told = (double)to.weight;
+            to.weight = 0;
+            const double sum = (double)light_tree_weight(&tree, &to), all = sum + (double)distant[i];
+            assert_true(told == sum);
+            if (!(all > 0)) {
+                assert_true(probability[i] == 0);
+                continue;
+            }
+            double rest = sum > 0 ? number[i]*all/sum : 1, share = sum/all;
+            uint32_t light = 0;
+            if (rest < 1) {
+                const double drawn = light_tree_draw(&tree, &to, &rest, &light);
+                share *= drawn;
+                n_placed += drawn > 0;
+            } else {
+                rest = (number[i]*all - sum)/(double)distant[i];
+                share = (double)distant[i]/all;
+                light = LIGHT_DISTANT;
+                n_distant++;
+            }
+            /* Sums and shares are floats; one more bit for the quotient. */
+            assert_true(fabs((double)probability[i] - share) <= 2.4e-7*share);
+            if (!(share > 0)) continue;
+            assert_int_equal(which[i], light);
+            assert_true(u[i] >= 0 && u[i] < 1 && (light != LIGHT_DISTANT || fabs(u[i] - rest) < 1e-4));
+        }
+    }
+    assert_true(n_distant > 1000 && n_placed > 1000);
+    light_tree_destroy(&tree);
+}
+
+/* Where the tree's weight is known already, probabilities are the same. */
+static void a_known_weight_changes_no_probability(void **state)
+{
+    (void)state;
+    enum { N = 300 };
+    static placed_light lights[N];
+    draws d = {12};
+    for (uint32_t i = 0; i < N; i++) lights[i] = random_light(&d, MIXED);
+    light_tree tree = tree_of(lights, N);
+    for (int round = 0; round < 100; round++) {
+        const light_receiver to = random_receiver(&d);
+        light_receiver knows = to;
+        knows.weight = light_tree_weight(&tree, &to);
+        for (uint32_t i = 0; i < N; i++) {
+            const double p = light_tree_probability(&tree, &to, i);
+            assert_true(fabs(light_tree_probability(&tree, &knows, i) - p) <= 6e-8*p); /* the weight is a float */
+        }
+    }
     light_tree_destroy(&tree);
 }
 
@@ -320,6 +424,8 @@ int main(void)
         cmocka_unit_test(probabilities_add_up_to_one),
         cmocka_unit_test(draws_follow_the_probabilities),
         cmocka_unit_test(the_rest_is_uniform),
+        cmocka_unit_test(walks_share_numbers_with_what_is_distant),
+        cmocka_unit_test(a_known_weight_changes_no_probability),
         cmocka_unit_test(lights_that_shine_at_a_point_can_be_drawn),
         cmocka_unit_test(a_surface_draws_the_light_that_it_mirrors),
         cmocka_unit_test(the_same_lights_give_the_same_tree),
