@@ -156,7 +156,7 @@ static void points(const sampler *given, size_t n, const uint32_t *pixel, const 
             place[i] = shuffled_index(index[first + i], seed[i], s.index_mask);
             third[i] = 0;
         }
-        for (uint32_t bit = 0; s.index_mask >> bit; bit++)
+        for (uint32_t bit = 0; bit < 32 && s.index_mask >> bit; bit++)
             EACH_LANE(i) third[i] = sobol_third_digit(third[i], place[i], bit);
         EACH_LANE(i)
         {

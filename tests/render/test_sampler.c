@@ -57,6 +57,25 @@ static void each_group_is_stratified(void **state)
     }
 }
 
+/* From 2^21 samples on an index has all of 32 digits: a square's pixels share as many points as there can be. */
+static void the_most_samples_have_numbers_of_their_own(void **state)
+{
+    (void)state;
+    static const uint32_t spps[] = {1u << 21, (1u << 21) + 1, 1u << 22, 1u << 23, (1u << 23) + 1, 1u << 24};
+    for (size_t i = 0; i < sizeof spps/sizeof *spps; i++) {
+        const sampler s = sampler_create(SAMPLER_SOBOL, 17, spps[i]);
+        enum { N = 4096, CELLS = 16 };
+        double expected[CELLS], observed[3][CELLS] = {{0}};
+        for (uint32_t k = 0; k < N; k++) {
+            const sample_point p = point_of(&s, k%5, k%7, spps[i]/N*k + spps[i]%N, 3);
+            for (int d = 0; d < 3; d++) observed[d][p.u[d]/(UINT32_MAX/CELLS + 1)]++;
+        }
+        for (int k = 0; k < CELLS; k++) expected[k] = (double)N/CELLS;
+        /* Better spread than independent numbers: the test can fail by cells that are left out alone. */
+        for (int d = 0; d < 3; d++) assert_true(chi_square_test(expected, observed[d], CELLS).p > 1e-3);
+    }
+}
+
 /* The shuffle keeps strata of the order, too: each aligned run of 2^j samples is itself stratified, so that a picture
  * that is stopped early is as good as one that was meant to be short. */
 static void each_aligned_run_is_stratified(void **state)
@@ -280,6 +299,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(each_group_is_stratified),
+        cmocka_unit_test(the_most_samples_have_numbers_of_their_own),
         cmocka_unit_test(each_aligned_run_is_stratified),
         cmocka_unit_test(squares_of_pixels_are_stratified_together),
         cmocka_unit_test(errors_of_neighbours_cancel),
