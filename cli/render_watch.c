@@ -37,6 +37,7 @@ struct render_watch {
     char *png;
     size_t n_png;
     uint32_t n_streams;
+    bool is_asked;       /* for the picture, since the last one came */
     double shown, cost; /* when the last picture came, how long it took [s] */
     watch_wish wish;
 };
@@ -89,6 +90,7 @@ static char *describe(const render_watch *w)
 static void send_state(render_watch *w, web_request *request)
 {
     pthread_mutex_lock(&w->lock);
+    w->is_asked = true; /* tells of the picture, too */
     char *text = describe(w);
     pthread_mutex_unlock(&w->lock);
     web_send(request, text ? 200 : 503, "application/json", text, text ? strlen(text) : 0);
@@ -165,6 +167,7 @@ static void send_picture(render_watch *w, web_request *request)
     char *made = NULL;
     size_t n_made = 0;
     pthread_mutex_lock(&w->lock);
+    w->is_asked = true;
     const uint64_t version = w->version;
     const bool is_stale = w->png_version != version && copy_picture(&w->picture, &linear);
     pthread_mutex_unlock(&w->lock);
@@ -284,7 +287,8 @@ bool watch_wants_picture(render_watch *w)
 {
     if (!w) return false;
     pthread_mutex_lock(&w->lock);
-    const bool is_wanted = w->n_streams > 0 && now() - w->shown >= fmax(PICTURE_STEP, PICTURE_COST*w->cost);
+    const bool is_wanted = (w->n_streams > 0 || w->is_asked) &&
+                           now() - w->shown >= fmax(PICTURE_STEP, PICTURE_COST*w->cost);
     pthread_mutex_unlock(&w->lock);
     return is_wanted;
 }
@@ -299,6 +303,7 @@ void watch_show(render_watch *w, const film *f)
     image_destroy(&w->picture);
     w->picture = next;
     w->version++;
+    w->is_asked = false;
     w->shown = now();
     w->cost = w->shown - begin;
     pthread_mutex_unlock(&w->lock);

@@ -174,6 +174,27 @@ static void people_can_watch_and_finish(void **state)
     assert_null(talk(port, "", 0, NULL, NULL)); /* the server has stopped with the render */
 }
 
+/* A front end may ask for the picture now and then instead of following events. */
+static void the_picture_comes_to_those_who_poll(void **state)
+{
+    (void)state;
+    skip_without_server();
+    for (int polls_state = 0; polls_state < 2; polls_state++) {
+        pid_t pid;
+        const unsigned port = start(&pid, "0", NULL, "600");
+        bool is_there = false;
+        while (!is_there) { /* ends by the test's own time limit */
+            char *answer = ask(port, polls_state ? "GET /state" : "GET /picture.png", own_host(port));
+            assert_non_null(answer);
+            is_there = polls_state ? strstr(answer, "\"width\": 48") != NULL : strstr(answer, "image/png") != NULL;
+            free(answer);
+            if (!is_there) usleep(20000);
+        }
+        expect_answer(port, "POST /cancel", own_host(port), "HTTP/1.1 200 OK\r\n");
+        assert_int_equal(wait_for_program(pid), 130);
+    }
+}
+
 static void people_can_cancel_and_what_is_rendered_is_saved(void **state)
 {
     (void)state;
@@ -391,6 +412,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(people_can_watch_and_finish),
+        cmocka_unit_test(the_picture_comes_to_those_who_poll),
         cmocka_unit_test(people_can_cancel_and_what_is_rendered_is_saved),
         cmocka_unit_test(strangers_are_refused),
         cmocka_unit_test(a_token_guards_the_page),
