@@ -3,6 +3,7 @@
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/commands.h"
@@ -56,16 +57,21 @@ static channel_summary summarise(const image *picture, size_t channel)
     return c;
 }
 
-static const char *type_name(pixel_type type)
+/* As the file has the pixels: OpenEXR's are always read as floats. */
+static const char *type_name(const image *picture, const image_notes *notes)
 {
-    return type == PIXEL_U8 ? "8 bit" : type == PIXEL_U16 ? "16 bit" : "float";
+    for (size_t i = 0; i < notes->n; i++)
+        if (notes->items[i].is_channel &&
+            (strcmp(notes->items[i].key, "R") == 0 || strcmp(notes->items[i].key, "Y") == 0))
+            return notes->items[i].value;
+    return picture->type == PIXEL_U8 ? "8 bit" : picture->type == PIXEL_U16 ? "16 bit" : "float";
 }
 
-static void print_picture(const char *path, const image *picture)
+static void print_picture(const char *path, const image *picture, const image_notes *notes)
 {
     static const char *const names[] = {"Y", "YA", "RGB", "RGBA"};
     printf("%s: picture, %zu x %zu pixels, %zu channel%s, %s\n", path, picture->width, picture->height,
-           picture->n_channels, picture->n_channels == 1 ? "" : "s", type_name(picture->type));
+           picture->n_channels, picture->n_channels == 1 ? "" : "s", type_name(picture, notes));
     printf("channel  mean          min           max           NaN       infinite\n");
     for (size_t k = 0; k < picture->n_channels; k++) {
         const channel_summary c = summarise(picture, k);
@@ -74,12 +80,39 @@ static void print_picture(const char *path, const image *picture)
     }
 }
 
-static void write_picture(json_writer *j, const image *picture)
+/* What a file says, without what would move a terminal's cursor. */
+static void print_plain(const char *text)
+{
+    for (; *text; text++) putchar((unsigned char)*text < ' ' || *text == 0x7f ? '?' : *text);
+}
+
+static void print_notes(const image_notes *notes)
+{
+    for (size_t i = 0; i < notes->n; i++) {
+        char key[64];
+        snprintf(key, sizeof key, "%s%s", notes->items[i].is_channel ? "channel " : "", notes->items[i].key);
+        printf("  ");
+        print_plain(key);
+        printf("%*s ", strlen(key) < 22 ? (int)(22 - strlen(key)) : 0, "");
+        print_plain(notes->items[i].value);
+        putchar('\n');
+    }
+}
+
+static void write_notes(json_writer *j, const image_notes *notes, bool of_channels)
+{
+    json_put_open(j, of_channels ? "types" : "texts", '{');
+    for (size_t i = 0; i < notes->n; i++)
+        if (notes->items[i].is_channel == of_channels) json_put_text(j, notes->items[i].key, notes->items[i].value);
+    json_put_close(j, '}');
+}
+
+static void write_picture(json_writer *j, const image *picture, const image_notes *notes)
 {
     json_put_text(j, "kind", "picture");
     json_put_integer(j, "width", picture->width);
     json_put_integer(j, "height", picture->height);
-    json_put_text(j, "type", type_name(picture->type));
+    json_put_text(j, "type", type_name(picture, notes));
     json_put_open(j, "channels", '[');
     for (size_t k = 0; k < picture->n_channels; k++) {
         const channel_summary c = summarise(picture, k);
@@ -229,17 +262,27 @@ static int tell_picture(const char *path, const settings *o)
     const size_t most = o->max_memory ? o->max_memory : FILE_MEMORY_DEFAULT;
     facet_error why = {0};
     image picture = {0};
-    if (image_read_within(path, most, &picture, &why)) return fail_with(FROM_INPUT, path, &why);
-    if (o->json) {
+    image_notes notes = {0};
+    unsigned char *bytes = NULL;
+    size_t size = 0;
+    facet_status status = file_read(path, &bytes, &size, &why);
+    if (!status) status = image_decode_within(bytes, size, most, &picture, &why);
+    if (!status) status = image_decode_notes(bytes, size, &notes, &why);
+    free(bytes);
+    if (!status && o->json) {
         json_writer j;
         start_json(&j, path);
-        write_picture(&j, &picture);
+        write_picture(&j, &picture, &notes);
+        write_notes(&j, &notes, true);
+        write_notes(&j, &notes, false);
         json_put_close(&j, '}');
-    } else {
-        print_picture(path, &picture);
+    } else if (!status) {
+        print_picture(path, &picture, &notes);
+        print_notes(&notes);
     }
+    image_notes_destroy(&notes);
     image_destroy(&picture);
-    return finish_stdout(0);
+    return status ? fail_with(FROM_INPUT, path, &why) : finish_stdout(0);
 }
 
 static int tell_checkpoint(const char *path, bool json)
@@ -294,7 +337,8 @@ const command info_command = {
     .description =
         "Scenes (.gltf, .glb): counts, cameras, materials, lights, bounds; what is not supported is warned of.\n"
         "Pictures (EXR, HDR, PNG, JPEG): size, and per channel mean, smallest, largest, NaN and infinite values, as\n"
-        "the file has them (integers scaled to [0,1], not decoded from sRGB).\n"
+        "the file has them (integers scaled to [0,1], not decoded from sRGB); the types of all of an EXR file's\n"
+        "channels; how facet made it.\n"
         "Checkpoints: how the render was made and how far it is, after all of the file was found whole.\n",
     .examples = "  facet info scene.glb\n  facet info picture.exr --json\n",
     .options = options,

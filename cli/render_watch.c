@@ -37,7 +37,7 @@ struct render_watch {
     char *png;
     size_t n_png;
     uint32_t n_streams;
-    bool is_asked;       /* for the picture, since the last one came */
+    bool is_asked;      /* for the picture, since the last one came */
     double shown, cost; /* when the last picture came, how long it took [s] */
     watch_wish wish;
 };

@@ -484,28 +484,72 @@ static facet_status read_pixels(reader *r, facet_error *why)
     return status;
 }
 
-facet_status exr_decode(const unsigned char *bytes, size_t size, size_t most, image *picture, facet_error *why)
+/* To be closed whatever the status is. */
+static facet_status open_reader(reader *r, const unsigned char *bytes, size_t size, size_t most, facet_error *why)
 {
+    *r = (reader){.stream = {.bytes = bytes, .size = size}, .most = most};
     if (size < 8 || memcmp(bytes, "\x76\x2f\x31\x01", 4) != 0) {
         return facet_error_set(why, FACET_BAD_FILE, "byte 0", "is not an OpenEXR file");
     }
-    if (bytes[5] & DEEP_FLAG) {
-        return refuse_deep(why);
+    return bytes[5] & DEEP_FLAG ? refuse_deep(why) : read_header(r, why);
+}
+
+static void close_reader(reader *r)
+{
+    if (r->context) {
+        exr_finish(&r->context);
     }
-    reader r = {.stream = {.bytes = bytes, .size = size}, .most = most};
-    facet_status status = read_header(&r, why);
+}
+
+facet_status exr_decode(const unsigned char *bytes, size_t size, size_t most, image *picture, facet_error *why)
+{
+    reader r;
+    facet_status status = open_reader(&r, bytes, size, most, why);
     if (status == FACET_OK) {
         status = read_pixels(&r, why);
     }
-    if (r.context) {
-        exr_finish(&r.context);
-    }
+    close_reader(&r);
     if (status != FACET_OK) {
         image_destroy(&r.picture);
         return status;
     }
     *picture = r.picture;
     return FACET_OK;
+}
+
+static facet_status note_channels(const exr_attr_chlist_t *list, image_notes *notes)
+{
+    static const char *const types[] = {"uint", "half", "float"};
+    facet_status status = FACET_OK;
+    for (int i = 0; i < list->num_channels && !status; i++) {
+        const char *type = types[list->entries[i].pixel_type];
+        status = image_notes_add(notes, true, list->entries[i].name.str, type, strlen(type));
+    }
+    return status;
+}
+
+static facet_status note_texts(const reader *r, image_notes *notes)
+{
+    int32_t n = 0;
+    facet_status status = FACET_OK;
+    exr_get_attribute_count(r->context, 0, &n);
+    for (int32_t i = 0; i < n && !status; i++) {
+        const exr_attribute_t *a = NULL;
+        if (exr_get_attribute_by_index(r->context, 0, EXR_ATTR_LIST_FILE_ORDER, i, &a) != EXR_ERR_SUCCESS) break;
+        if (a->type == EXR_ATTR_STRING && strncmp(a->name, IMAGE_TEXT_PREFIX, strlen(IMAGE_TEXT_PREFIX)) == 0)
+            status = image_notes_add(notes, false, a->name, a->string->str, (size_t)a->string->length);
+    }
+    return status;
+}
+
+facet_status exr_decode_notes(const unsigned char *bytes, size_t size, image_notes *notes, facet_error *why)
+{
+    reader r;
+    facet_status status = open_reader(&r, bytes, size, SIZE_MAX, why);
+    if (status == FACET_OK && (status = note_channels(r.channels, notes)) == FACET_OK) status = note_texts(&r, notes);
+    if (status == FACET_NO_MEMORY) facet_error_set(why, status, "", "no memory for its texts");
+    close_reader(&r);
+    return status;
 }
 
 /* ---- Writing ----------------------------------------------------------------------------------- */

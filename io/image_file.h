@@ -48,6 +48,32 @@ typedef struct image_text {
     const char *value;
 } image_text;
 
+/* What a file says of its picture beside the pixels: of OpenEXR the type of each channel, those of layers included
+ * ("half", "float", "uint"), and of OpenEXR and PNG facet's own texts, up to IMAGE_MOST_NOTES in all. */
+typedef struct image_note {
+    bool is_channel;
+    char *key, *value; /* any bytes but 0 */
+} image_note;
+
+typedef struct image_notes {
+    size_t n;
+    image_note *items;
+} image_notes;
+
+#define IMAGE_MOST_NOTES 1024
+
+/* *notes is the caller's to destroy; empty for other kinds of files, and on failure. */
+facet_status image_decode_notes(const unsigned char *bytes, size_t size, image_notes *notes, facet_error *why);
+void image_notes_destroy(image_notes *notes);
+
+/* For the decoders: adds a copy, `length` bytes of the value; FACET_NO_MEMORY. */
+facet_status image_notes_add(image_notes *notes, bool is_channel, const char *key, const char *value, size_t length);
+facet_status exr_decode_notes(const unsigned char *bytes, size_t size, image_notes *notes, facet_error *why);
+facet_status png_decode_notes(const unsigned char *bytes, size_t size, image_notes *notes, facet_error *why);
+
+/* What the keys of facet's texts begin with. */
+#define IMAGE_TEXT_PREFIX "facet:"
+
 typedef enum exr_precision { EXR_FLOAT, EXR_HALF } exr_precision;
 
 /* OpenEXR, ZIP compressed scan lines, channels R G B [A] (or Y for one channel).  picture: F32.

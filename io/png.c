@@ -126,17 +126,33 @@ static void prepare_read(job *j)
     }
 }
 
+static void limit_reading(job *j)
+{
+    png_set_read_fn(j->png, j, read_bytes);
+    png_set_user_limits(j->png, MAX_SIDE, MAX_SIDE); /* prepare_read bounds the product */
+    png_set_chunk_malloc_max(j->png, CHUNK_MEMORY);
+    png_set_chunk_cache_max(j->png, CHUNK_COUNT);
+    png_set_keep_unknown_chunks(j->png, PNG_HANDLE_CHUNK_NEVER, NULL, 0);
+}
+
+/* Only what comes before the pixels, where facet writes its texts; false if libpng jumped out. */
+static bool read_info(job *j)
+{
+    if (setjmp(png_jmpbuf(j->png))) {
+        return false;
+    }
+    limit_reading(j);
+    png_read_info(j->png, j->info);
+    return true;
+}
+
 /* false if libpng jumped out. */
 static bool read_picture(job *j)
 {
     if (setjmp(png_jmpbuf(j->png))) {
         return false;
     }
-    png_set_read_fn(j->png, j, read_bytes);
-    png_set_user_limits(j->png, MAX_SIDE, MAX_SIDE); /* prepare_read bounds the product */
-    png_set_chunk_malloc_max(j->png, CHUNK_MEMORY);
-    png_set_chunk_cache_max(j->png, CHUNK_COUNT);
-    png_set_keep_unknown_chunks(j->png, PNG_HANDLE_CHUNK_NEVER, NULL, 0);
+    limit_reading(j);
     prepare_read(j);
     const size_t row_size = png_get_rowbytes(j->png, j->info), height = j->picture.height;
     j->pixels = allocate(j, row_size*height);
@@ -149,29 +165,44 @@ static bool read_picture(job *j)
     return true;
 }
 
-facet_status png_decode(const unsigned char *bytes, size_t size, size_t most, image *picture, facet_error *why)
+/* Does one reading of a file. */
+static facet_status run_reading(job *j, bool (*read)(job *j), facet_error *why)
 {
     char place[32];
     size_t at;
-    const char *damage = check_chunks(bytes, size, &at);
+    const char *damage = check_chunks(j->bytes, j->size, &at);
     if (damage) {
         snprintf(place, sizeof place, "byte %zu", at);
         return facet_error_set(why, FACET_BAD_FILE, place, "PNG: %s", damage);
     }
-    job j = {.bytes = bytes, .size = size, .most = most};
-    j.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, &j, on_error, on_warning);
-    j.info = j.png ? png_create_info_struct(j.png) : NULL;
-    facet_status status = FACET_OK;
-    if (!j.info) {
-        status = facet_error_set(why, FACET_NO_MEMORY, "", "no memory to read a PNG file");
-    } else if (!read_picture(&j)) {
-        snprintf(place, sizeof place, "byte %zu", j.at);
-        if (j.refusal.status != FACET_OK)
-            status = facet_error_set(why, j.refusal.status, "", "PNG: %s", j.refusal.text);
-        else
-            status = facet_error_set(why, j.is_out_of_memory ? FACET_NO_MEMORY : FACET_BAD_FILE, place, "PNG: %s",
-                                     j.message);
+    j->png = png_create_read_struct(PNG_LIBPNG_VER_STRING, j, on_error, on_warning);
+    j->info = j->png ? png_create_info_struct(j->png) : NULL;
+    if (!j->info) return facet_error_set(why, FACET_NO_MEMORY, "", "no memory to read a PNG file");
+    if (read(j)) return FACET_OK;
+    snprintf(place, sizeof place, "byte %zu", j->at);
+    if (j->refusal.status != FACET_OK) return facet_error_set(why, j->refusal.status, "", "PNG: %s", j->refusal.text);
+    return facet_error_set(why, j->is_out_of_memory ? FACET_NO_MEMORY : FACET_BAD_FILE, place, "PNG: %s", j->message);
+}
+
+facet_status png_decode_notes(const unsigned char *bytes, size_t size, image_notes *notes, facet_error *why)
+{
+    job j = {.bytes = bytes, .size = size};
+    facet_status status = run_reading(&j, read_info, why);
+    png_textp texts = NULL;
+    const int n = status == FACET_OK ? png_get_text(j.png, j.info, &texts, NULL) : 0;
+    for (int i = 0; i < n && !status; i++) {
+        if (strncmp(texts[i].key, IMAGE_TEXT_PREFIX, strlen(IMAGE_TEXT_PREFIX)) != 0) continue;
+        status = image_notes_add(notes, false, texts[i].key, texts[i].text, strlen(texts[i].text));
+        if (status) facet_error_set(why, status, "", "no memory for its texts");
     }
+    png_destroy_read_struct(&j.png, &j.info, NULL);
+    return status;
+}
+
+facet_status png_decode(const unsigned char *bytes, size_t size, size_t most, image *picture, facet_error *why)
+{
+    job j = {.bytes = bytes, .size = size, .most = most};
+    const facet_status status = run_reading(&j, read_picture, why);
     png_destroy_read_struct(&j.png, &j.info, NULL);
     free(j.rows);
     if (status != FACET_OK) {

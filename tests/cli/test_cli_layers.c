@@ -51,6 +51,30 @@ static void layers_stand_beside_the_picture(void **state)
     assert_false(holds("all.exr", "noisy.R"));
 }
 
+static void info_tells_how_a_picture_was_made(void **state)
+{
+    (void)state;
+    expect_run(
+        RENDER("--spp", "2", "--quiet", "--half", "--aov", "albedo", "--seed", "7", "-o", "i.exr", "-o", "i.png"), 0,
+        "");
+    program_run run = RUN("info", "i.exr");
+    assert_int_equal(run.status, 0);
+    static const char *const lines[] = {"3 channels, half\n", "\n  channel albedo.R       half\n",
+                                        "\n  facet:seed             7\n", "\n  facet:command          "};
+    for (size_t i = 0; i < sizeof lines/sizeof *lines; i++) assert_non_null(strstr(run.out, lines[i]));
+    program_run_free(&run);
+    run = RUN("info", "i.png");
+    assert_non_null(strstr(run.out, "\n  facet:seed             7\n"));
+    assert_null(strstr(run.out, "  channel "));
+    program_run_free(&run);
+    run = RUN("info", "i.exr", "--json");
+    json_t *told = json_loads(run.out, 0, NULL);
+    assert_string_equal(json_string_value(json_object_get(json_object_get(told, "types"), "albedo.G")), "half");
+    assert_string_equal(json_string_value(json_object_get(json_object_get(told, "texts"), "facet:seed")), "7");
+    json_decref(told);
+    program_run_free(&run);
+}
+
 static void what_layers_need_is_said_at_once(void **state)
 {
     (void)state;
@@ -128,6 +152,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(layers_stand_beside_the_picture),
+        cmocka_unit_test(info_tells_how_a_picture_was_made),
         cmocka_unit_test(what_layers_need_is_said_at_once),
         cmocka_unit_test(the_denoised_picture_takes_the_place_of_the_noisy_one),
         cmocka_unit_test(shards_keep_what_layers_need),

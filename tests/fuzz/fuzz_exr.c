@@ -6,5 +6,6 @@
 int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
 {
     check_decoder(exr_decode, bytes, size);
+    check_notes(bytes, size);
     return 0;
 }

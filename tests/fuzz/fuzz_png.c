@@ -27,6 +27,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t size)
     uint8_t *copy = copy_bytes(bytes, size);
     make_checksums_right(copy, size);
     if (size && memcmp(copy, bytes, size) != 0) check_decoder(png_decode, copy, size);
+    check_notes(copy, size);
     free(copy);
     return 0;
 }

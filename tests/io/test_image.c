@@ -244,6 +244,30 @@ static void exr_half_rounds_to_nearest(void **state)
     image_destroy(&q);
 }
 
+/* What is to be noted, in the file's order: channels first, those of OpenEXR by name. */
+static void assert_notes(const unsigned char *bytes, size_t size, const image_note *expected, size_t n)
+{
+    image_notes notes;
+    facet_error why = {0};
+    assert_int_equal(image_decode_notes(bytes, size, &notes, &why), FACET_OK);
+    assert_int_equal(notes.n, n);
+    for (size_t i = 0; i < n; i++) {
+        assert_string_equal(notes.items[i].key, expected[i].key);
+        assert_string_equal(notes.items[i].value, expected[i].value);
+        assert_int_equal(notes.items[i].is_channel, expected[i].is_channel);
+    }
+    image_notes_destroy(&notes);
+    for (size_t cut = 0; cut < size; cut += 1 + size/50) { /* whatever a cut file says, it ends well */
+        unsigned char *start = malloc(cut + 1);
+        assert_non_null(start);
+        memcpy(start, bytes, cut);
+        const facet_status status = image_decode_notes(start, cut, &notes, &why);
+        assert_true(status == FACET_OK || (notes.n == 0 && !notes.items && why.text[0]));
+        image_notes_destroy(&notes);
+        free(start);
+    }
+}
+
 static void exr_keeps_text_and_matrices(void **state)
 {
     (void)state;
@@ -272,6 +296,13 @@ static void exr_keeps_text_and_matrices(void **state)
     assert_true(holds(bytes, size, matrix, 23 + 64));
     assert_true(holds(bytes, size, "worldToNDC\0m44f", 16));
     assert_true(holds(bytes, size, "chromaticities\0chromaticities\0\x20", 31));
+    const image_note notes[] = {{true, (char *)"B", (char *)"float"},
+                                {true, (char *)"G", (char *)"float"},
+                                {true, (char *)"R", (char *)"float"},
+                                {false, (char *)text[0].key, (char *)text[0].value},
+                                {false, (char *)text[1].key, (char *)text[1].value},
+                                {false, (char *)text[2].key, (char *)text[2].value}};
+    assert_notes(bytes, size, notes, 6);
     free(bytes);
     q = read_target(); /* long names do not disturb the reader */
     assert_same_picture(&p, &q);
@@ -328,6 +359,9 @@ static void png_keeps_text_and_is_marked_srgb(void **state)
     assert_true(holds(bytes, size, "iTXtfacet:scene\0\0\0\0\0\xc3\xa9t\xc3\xa9", 25));
     assert_true(holds(bytes, size, "sRGB", 4));
     assert_prefixes_refused(bytes, size);
+    const image_note notes[] = {{false, (char *)text[0].key, (char *)text[0].value},
+                                {false, (char *)text[1].key, (char *)text[1].value}};
+    assert_notes(bytes, size, notes, 2);
     free(bytes);
     image_destroy(&p);
 }

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: MIT */
 #include "tests/fuzz/parts/picture_checks.h"
 
+#include <string.h>
+
 #include "tests/fuzz/parts/harness.h"
 
 /* What a small machine has to spare; a picture of more is refused. */
@@ -28,4 +30,14 @@ void check_decoder(picture_decoder *decode, const uint8_t *bytes, size_t size)
 {
     const size_t n = decode_once(decode, bytes, size, MOST);
     if (n) require(decode_once(decode, bytes, size, n - 1) == 0);
+}
+
+void check_notes(const uint8_t *bytes, size_t size)
+{
+    image_notes notes;
+    facet_error why = {0};
+    const facet_status status = image_decode_notes(bytes, size, &notes, &why);
+    require(status == FACET_OK || (notes.n == 0 && !notes.items && why.text[0]));
+    for (size_t i = 0; i < notes.n; i++) require(strlen(notes.items[i].key) + strlen(notes.items[i].value) < size);
+    image_notes_destroy(&notes);
 }

@@ -12,3 +12,6 @@ typedef facet_status picture_decoder(const unsigned char *bytes, size_t size, si
 
 /* Decodes with much memory allowed, then with just as much and one byte less than the picture took. */
 void check_decoder(picture_decoder *decode, const uint8_t *bytes, size_t size);
+
+/* Reads what the file says beside its pixels. */
+void check_notes(const uint8_t *bytes, size_t size);
