@@ -10,7 +10,8 @@ extern "C" {
 #endif
 
 extern const command render_command, compare_command, eval_command, sample_command, terms_command, albedo_command,
-    materials_command, scenes_command, info_command, verify_command, plot_command, merge_command, explore_command;
+    materials_command, scenes_command, info_command, verify_command, fit_command, plot_command, merge_command,
+    explore_command;
 
 /* All of them. */
 extern const command *const commands[];

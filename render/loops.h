@@ -37,8 +37,8 @@ typedef struct render_loops {
      * has_receivers: by more than the positions. */
     void (*choose_light)(uint32_t n_triangles, const light_triangle *triangles, size_t n, light_receivers to,
                          bool has_receivers, const uint32_t *u, const light_triangle **chosen, float *probability);
-    /* light_tree_draw for n points, among the tree's lights and something distant of a weight of its own: LIGHT_DISTANT.
-     * The receivers get the tree's weight. */
+    /* light_tree_draw for n points, among the tree's lights and something distant of a weight of its own, which is
+     * LIGHT_DISTANT.  The receivers get the tree's weight. */
     void (*walk_light_tree)(const light_tree *tree, size_t n, light_receivers to, const float *distant, double *u,
                             uint32_t *which, float *probability);
     /* For each of n points one on its triangle, as light_set_sample (lights.h). */

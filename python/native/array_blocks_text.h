@@ -188,8 +188,8 @@ static int NAME(are_units)(const NAME(window)*a, const NAME(window)*b, size_t n)
     return NAME(largest_excess)(a, b, n) <= NAME(magnitude)((REAL)FACET_PYTHON_UNIT);
 }
 
-/* Whether those of `a` are unit vectors, and those of `b` in the unit cube: numbers from 0 up have the order of their bits,
- * and those of negative ones and of NaN are above 1's.  -0 thus looks wrong, and tell() finds that it is not. */
+/* Whether those of `a` are unit vectors, and those of `b` in the unit cube: numbers from 0 up have the order of their
+ * bits, and those of negative ones and of NaN are above 1's.  -0 thus looks wrong, and tell() finds that it is not. */
 EACH_ISA static int NAME(are_units_and_in_cube)(const NAME(window)*a, const NAME(window)*b, size_t n)
 {
     const REAL *const x = a->part[0], *const y = a->part[1], *const z = a->part[2];
