@@ -157,10 +157,10 @@ static double search(problem *p, double *work, double *best, fit_result *result)
 }
 
 /* Sum of squares over all points. */
-static double distance(const problem *p, const double *x, double *work)
+static double distance(problem *p, const double *x, double *work)
 {
     double sum = 0;
-    if (!compare((void *)p, x, work)) return INFINITY;
+    if (!compare(p, x, work)) return INFINITY;
     for (size_t i = 0; i < 3*n_taken(p); i++) sum += work[i]*work[i];
     return sum;
 }

@@ -9,9 +9,10 @@ extern "C" {
 #endif
 
 /* Elements that are handled at a time, so that a block stays in the first cache from one step to the next, and
- * reading, computing and writing overlap: with 64 ggx takes a tenth longer, with 512 rows half as long again.  A density
- * alone, which writes little, takes as many as a copy has room for.  Samples take several loops each, which overlap
- * little, and 13 columns: where nothing is copied, blocks for the second cache, of 104 KiB, save ggx and gtr a tenth. */
+ * reading, computing and writing overlap: with 64 ggx takes a tenth longer, with 512 rows half as long again.  A
+ * density alone, which writes little, takes as many as a copy has room for.  Samples take several loops each, which
+ * overlap little, and 13 columns: where nothing is copied, blocks for the second cache, of 104 KiB, save ggx and gtr a
+ * tenth. */
 enum { ARRAY_BLOCK = 128, ARRAY_LARGEST_COPY = 256, ARRAY_SAMPLES = 2048 };
 
 typedef enum array_layout {
