@@ -223,6 +223,13 @@ facet_status checkpoint_write(const char *path, const render_state *state, const
 
 /* ---- Reading ------------------------------------------------------------------------------------- */
 
+bool checkpoint_is_one(const char *path)
+{
+    char magic[sizeof MAGIC + 1] = "";
+    memcpy(magic, MAGIC, sizeof MAGIC);
+    return file_begins_with(path, magic);
+}
+
 /* The bytes of a part whose checksum is right. */
 static facet_status read_part(FILE *stream, const char *part, unsigned char *bytes, size_t size, uLong *crc,
                               facet_error *why)

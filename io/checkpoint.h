@@ -37,6 +37,9 @@ typedef struct checkpoint {
 facet_status checkpoint_write(const char *path, const render_state *state, const image_text *texts, size_t n_texts,
                               facet_error *why);
 
+/* Whether the file begins as checkpoints do, of whatever format and however damaged. */
+bool checkpoint_is_one(const char *path);
+
 /* Reads and checks.  Without its film only the head and the texts are, and state.film has sizes alone.  *c is the
  * caller's to destroy on success. */
 facet_status checkpoint_read(const char *path, bool wants_film, checkpoint *c, facet_error *why);

@@ -2,7 +2,8 @@
  *
  * Reading checks sizes before taking memory and refuses what is not a regular file.  Writing goes to a
  * temporary name beside the target, is fsynced, and is renamed only when complete, so that no reader
- * ever sees half a file and a failure leaves the old one untouched.
+ * ever sees half a file and a failure leaves the old one untouched.  Of a symbolic link the target is
+ * replaced, and the link stays.
  * SPDX-License-Identifier: MIT */
 #pragma once
 
@@ -37,6 +38,13 @@ facet_status file_resolve(const char *folder, const char *path, char **resolved,
 /* A regular file of any size to read from; the caller closes *stream. */
 facet_status file_open(const char *path, FILE **stream, uint64_t *size, facet_error *why);
 
+/* Whether it is a regular file that can be read and begins with `magic`, of at most 16 bytes. */
+bool file_begins_with(const char *path, const char *magic);
+
+/* Whether two names are of one file, once symbolic links are followed: by its device and number, or where there is no
+ * file yet by its folder's and the last part of the name. */
+bool file_is_same(const char *a, const char *b);
+
 /* A file being written.  Write to `stream`, then commit (rename over `path`) or discard (remove). */
 typedef struct file_writer {
     FILE *stream;
@@ -49,8 +57,8 @@ facet_status file_writer_open(file_writer *writer, const char *path, facet_error
 facet_status file_writer_commit(file_writer *writer, facet_error *why);
 void file_writer_discard(file_writer *writer);
 
-/* Removes what writers of `path` that were killed have left beside it.  One that is still at work is not harmed beyond
- * this file: its commit fails. */
+/* Removes what writers of `path` that were killed have left beside it: files NAME.tmp-PID-N, of no process of this
+ * machine, or of this one, which must not be writing `path` yet. */
 void file_remove_leftovers(const char *path);
 
 #ifdef __cplusplus

@@ -299,12 +299,28 @@ static void each_refusal_has_its_reason(void **state)
 static void leftovers_of_killed_writers_are_removed(void **state)
 {
     (void)state;
-    static const char *const names[] = {"d.ckpt", "d.ckpt.tmp-17-0", "d.ckpt.tmp-9-3", "dd.ckpt.tmp-17-0",
-                                        "d.ckpt.tmp"};
-    static const int stays[] = {1, 0, 0, 1, 1};
-    for (size_t i = 0; i < 5; i++) write_text(in_folder(folder, names[i]), "x");
+    /* No process has a number of nine digits; 1 is always there. */
+    static const char *const names[] = {"d.ckpt",
+                                        "d.ckpt.tmp-999999917-0",
+                                        "d.ckpt.tmp-999999909-13",
+                                        "dd.ckpt.tmp-999999917-0",
+                                        "d.ckpt.tmp",
+                                        "d.ckpt.tmp-1-0",
+                                        "d.ckpt.tmp-notes",
+                                        "d.ckpt.tmp-999999917",
+                                        "d.ckpt.tmp-999999917-",
+                                        "d.ckpt.tmp-999999917-0x",
+                                        "d.ckpt.tmp--999999917-0",
+                                        "d.ckpt.tmp-99999999999999999999-0"};
+    enum { N_NAMES = sizeof names/sizeof *names };
+    for (size_t i = 0; i < N_NAMES; i++) write_text(in_folder(folder, names[i]), "x");
+    char own[64];
+    snprintf(own, sizeof own, "d.ckpt.tmp-%ld-0", (long)getpid()); /* of an earlier process with this number */
+    write_text(in_folder(folder, own), "x");
     file_remove_leftovers(in_folder(folder, "d.ckpt"));
-    for (size_t i = 0; i < 5; i++) assert_int_equal(access(in_folder(folder, names[i]), F_OK) == 0, stays[i]);
+    for (size_t i = 0; i < N_NAMES; i++)
+        assert_int_equal(access(in_folder(folder, names[i]), F_OK) == 0, i != 1 && i != 2);
+    assert_int_not_equal(access(in_folder(folder, own), F_OK), 0);
     file_remove_leftovers(in_folder(folder, "no such folder/d.ckpt"));
 }
 

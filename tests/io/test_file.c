@@ -3,6 +3,7 @@
 #include <dirent.h>
 #include <setjmp.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -53,7 +54,7 @@ static int remove_folder(void **state)
 
 static const char *path_of(const char *name)
 {
-    static char path[128];
+    static char path[400];
     snprintf(path, sizeof path, "%s/%s", folder, name);
     return path;
 }
@@ -232,7 +233,7 @@ static void expect_resolved(const char *root, const char *path, bool is_inside, 
 static void links_are_followed_before_a_place_is_judged(void **state)
 {
     (void)state;
-    char root[256];
+    char root[400];
     snprintf(root, sizeof root, "%s", path_of("in"));
     assert_int_equal(mkdir(root, 0700), 0);
     assert_int_equal(mkdir(path_of("inside"), 0700), 0); /* a folder whose name only begins so */
@@ -253,6 +254,98 @@ static void links_are_followed_before_a_place_is_judged(void **state)
     assert_null(resolved);
     static const char *const made[] = {"in/a", "in/out", "inside/b", "inside/back", "in", "inside"};
     for (size_t i = 0; i < sizeof made/sizeof *made; i++) assert_int_equal(remove(path_of(made[i])), 0);
+}
+
+/* Names of up to NAME_MAX bytes, in ASCII and in characters of two and three bytes. */
+static void every_name_that_the_system_takes_can_be_written(void **state)
+{
+    (void)state;
+    static const char *const letters[] = {"a", "\xc3\xa9", "\xe2\x82\xac"};
+    for (size_t k = 0; k < 3; k++)
+        for (size_t length = 225; length <= 256; length++) {
+            char name[300] = "";
+            while (strlen(name) + strlen(letters[k]) <= length) strcat(name, letters[k]);
+            while (strlen(name) < length) strcat(name, "x");
+            file_writer w;
+            facet_error why = {0};
+            const facet_status status = file_writer_open(&w, path_of(name), &why);
+            assert_int_equal(status, length <= 255 ? FACET_OK : FACET_IO);
+            if (status) continue;
+            const char *temporary = strrchr(w.temporary, '/') + 1, *end = strstr(temporary, ".tmp-");
+            assert_memory_equal(temporary, name, (size_t)(end - temporary));
+            assert_int_not_equal((unsigned char)name[end - temporary] & 0xc0, 0x80); /* no part of a character */
+            fputs("long", w.stream);
+            assert_int_equal(file_writer_commit(&w, &why), FACET_OK);
+            char cut[300];
+            snprintf(cut, sizeof cut, "%.*s.tmp-999999917-3", length < 232 ? (int)length : 231, name);
+            if (k == 0) write_text(path_of(cut), "stale");
+            file_remove_leftovers(path_of(name));
+            assert_content(path_of(name), "long");
+            assert_int_equal(count_entries(1), 1);
+        }
+}
+
+/* A link stays, and what it leads to is replaced, or made. */
+static void links_are_written_through(void **state)
+{
+    (void)state;
+    assert_int_equal(mkdir(path_of("folder"), 0700), 0);
+    assert_int_equal(symlink("folder/target", path_of("link")), 0);
+    assert_int_equal(symlink("link", path_of("twice")), 0);
+    static const char *const names[] = {"twice", "link"};
+    for (size_t i = 0; i < 2; i++) {
+        file_writer w;
+        facet_error why = {0};
+        write_text(path_of("folder/target.tmp-999999917-0"), "stale");
+        file_remove_leftovers(path_of(names[i]));
+        assert_int_not_equal(access(path_of("folder/target.tmp-999999917-0"), F_OK), 0);
+        assert_int_equal(file_writer_open(&w, path_of(names[i]), &why), FACET_OK);
+        fputs(names[i], w.stream);
+        assert_int_equal(file_writer_commit(&w, &why), FACET_OK);
+        assert_content(path_of("folder/target"), names[i]);
+        struct stat info;
+        assert_int_equal(lstat(path_of(names[i]), &info), 0);
+        assert_true(S_ISLNK(info.st_mode));
+    }
+    assert_int_equal(unlink(path_of("folder/target")), 0);
+    assert_int_equal(rmdir(path_of("folder")), 0); /* nothing else was in it */
+    file_writer w;
+    facet_error why = {0};
+    assert_int_equal(symlink("round", path_of("round")), 0);
+    assert_int_equal(file_writer_open(&w, path_of("round"), &why), FACET_IO);
+    assert_non_null(strstr(why.text, "symbolic links"));
+}
+
+static void expect_same(const char *a, const char *b, bool is_same)
+{
+    char first[400];
+    snprintf(first, sizeof first, "%s", path_of(a));
+    if (file_is_same(first, path_of(b)) != is_same) fail_msg("%s and %s", a, b);
+    snprintf(first, sizeof first, "%s", path_of(b));
+    if (file_is_same(first, path_of(a)) != is_same) fail_msg("%s and %s", b, a);
+}
+
+static void names_of_one_file_are_known_as_such(void **state)
+{
+    (void)state;
+    assert_int_equal(mkdir(path_of("in"), 0700), 0);
+    write_text(path_of("a"), "a");
+    write_text(path_of("b"), "a");
+    assert_int_equal(symlink("a", path_of("to a")), 0);
+    assert_int_equal(symlink("in/none", path_of("to none")), 0);
+    assert_int_equal(symlink("in", path_of("to in")), 0);
+    expect_same("a", "a", true);
+    expect_same("a", "in/../a", true);
+    expect_same("a", "to a", true);
+    expect_same("a", "b", false);
+    expect_same("a", "none", false);
+    expect_same("none", "none", true); /* names of files that are not there yet */
+    expect_same("none", "./none", true);
+    expect_same("none", "in/none", false);
+    expect_same("in/none", "to in/none", true);
+    expect_same("in/none", "to none", true);
+    expect_same("in/none", "in/nine", false);
+    expect_same("nowhere/none", "nowhere/none", false); /* where none can be made */
 }
 
 static void a_target_that_cannot_be_is_refused_at_once(void **state)
@@ -296,6 +389,9 @@ int main(void)
         TEST(devices_are_written_in_place),
         TEST(a_file_in_shared_memory_is_created_and_replaced),
         TEST(links_are_followed_before_a_place_is_judged),
+        TEST(every_name_that_the_system_takes_can_be_written),
+        TEST(links_are_written_through),
+        TEST(names_of_one_file_are_known_as_such),
         TEST(a_target_that_cannot_be_is_refused_at_once),
         TEST(a_folder_without_permission_is_refused),
     };
