@@ -281,6 +281,7 @@ facet_status gltf_read_with(const char *path, const gltf_options *options, scene
     gltf g = {.path = path,
               .folder_length = slash ? (size_t)(slash - path) + 1 : 0,
               .warning = options->warning,
+              .on_file = options->on_file,
               .user = options->user,
               .allows_outside = options->allows_outside,
               .has_own_cap = options->most_memory != 0,

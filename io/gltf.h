@@ -18,16 +18,20 @@ extern "C" {
  * and remedy included ("materials[2]: KHR_materials_sheen is not supported: rendered without sheen"). */
 typedef void gltf_warning(void *user, const char *text);
 
+/* Called for each file that the scene refers to, once it is read. */
+typedef void gltf_file(void *user, const char *path);
+
 /* How to read; all zeros are the defaults. */
 typedef struct gltf_options {
     gltf_warning *warning; /* may be NULL */
-    void *user;            /* of the warning */
+    void *user;            /* of the warning and of on_file */
     /* References may name any file: absolute, with "..", by a symbolic link, or as file: URI.  Without it they cannot
      * leave the scene's own folder. */
     bool allows_outside;
     /* Files, geometry and pictures of the scene together [byte]; 0: FILE_MEMORY_DEFAULT, and geometry within
      * GLTF_GEOMETRY_FLOOR and _FACTOR besides. */
     size_t most_memory;
+    gltf_file *on_file; /* may be NULL */
 } gltf_options;
 
 /* Reads the file and everything it refers to.  On success *result is the caller's to destroy. */

@@ -104,6 +104,7 @@ enum { GLTF_MAX_NOTES = 40 };
 typedef struct gltf {
     facet_error error;
     gltf_warning *warning;
+    gltf_file *on_file;
     void *user;
     size_t n_warnings;
     bool allows_outside, has_own_cap; /* has_own_cap: the user chose most_memory */

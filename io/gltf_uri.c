@@ -155,6 +155,7 @@ static bool read_file(gltf *g, const json_place *place, const char *name, unsign
     strcpy(path + start, name);
     const facet_status status = g->allows_outside ? file_read_within(path, gltf_memory_left(g), bytes, size, &problem)
                                                   : read_inside(g, path, place, bytes, size, &problem);
+    if (!status && !place->why->status && g->on_file) g->on_file(g->user, path);
     free(path);
     return !place->why->status &&
            (!status || json_fail(place, status, "\"%.80s\": %s%s", name, problem.text,
