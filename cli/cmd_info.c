@@ -212,21 +212,10 @@ static void write_scene(json_writer *j, const scene *s, const warning_list *warn
 
 /* ---- The command ------------------------------------------------------------------------------- */
 
-/* Whether the file begins so. */
-static bool has_magic(const char *path, const char *magic)
-{
-    char bytes[8] = {0};
-    FILE *stream = fopen(path, "rb");
-    if (!stream) return false;
-    const size_t n = fread(bytes, 1, strlen(magic), stream);
-    fclose(stream);
-    return n == strlen(magic) && memcmp(bytes, magic, n) == 0;
-}
-
 /* True for glTF by name, for .glb also by its first bytes. */
 static bool is_scene(const char *path)
 {
-    return has_extension(path, "gltf") || has_extension(path, "glb") || has_magic(path, "glTF");
+    return has_extension(path, "gltf") || has_extension(path, "glb") || file_begins_with(path, "glTF");
 }
 
 static void start_json(json_writer *j, const char *path)
@@ -241,8 +230,8 @@ static int tell_scene(const char *path, const settings *o)
     facet_error why = {0};
     scene *s = NULL;
     warning_list warnings = {0};
-    warning_source source = {&warnings, path};
-    const gltf_options options = {keep_gltf_warning, &source, o->allow_outside, o->max_memory};
+    warning_source source = {.list = &warnings, .path = path};
+    const gltf_options options = {keep_gltf_warning, &source, o->allow_outside, o->max_memory, NULL};
     int status = gltf_read_with(path, &options, &s, &why) ? fail_with(FROM_INPUT, path, &why) : 0;
     if (!status && o->json) {
         json_writer j;
@@ -316,7 +305,7 @@ static int run(int argc, char **argv)
     const char *path;
     const int status = options_parse(&info_command, argc, argv, &s, &path);
     if (status != PARSE_GO) return status;
-    if (has_magic(path, "facetckp")) return tell_checkpoint(path, s.json);
+    if (checkpoint_is_one(path)) return tell_checkpoint(path, s.json);
     return is_scene(path) ? tell_scene(path, &s) : tell_picture(path, &s);
 }
 

@@ -26,21 +26,30 @@ int csv_fail(const csv_reader *reader, const char *format, ...)
     return fail(EXIT_INPUT, reader->name, place, "%s", text);
 }
 
+/* The next line without its end; *is_end if there is none. */
+static int read_line(csv_reader *reader, bool *is_end)
+{
+    size_t n = 0;
+    int c;
+    reader->line++;
+    while ((c = getc_unlocked(reader->stream)) != EOF && c != '\n') {
+        if (!c) return csv_fail(reader, "has a zero byte; it is not text");
+        if (n + 2 == CSV_LINE_CAP) return csv_fail(reader, "the line is longer than %d bytes", CSV_LINE_CAP - 2);
+        reader->text[n++] = (char)c;
+    }
+    while (n && reader->text[n - 1] == '\r') n--;
+    reader->text[n] = 0;
+    *is_end = c == EOF && n == 0;
+    if (c != EOF || !ferror(reader->stream)) return 0;
+    return fail(EXIT_INPUT, reader->name, NULL, "cannot be read: %s", strerror(errno));
+}
+
 /* The next line that is neither empty nor a comment, without its end; *is_end if there is none. */
 static int next_line(csv_reader *reader, bool *is_end)
 {
     for (;;) {
-        *is_end = !fgets(reader->text, CSV_LINE_CAP, reader->stream);
-        if (*is_end) {
-            if (!ferror(reader->stream)) return 0;
-            return fail(EXIT_INPUT, reader->name, NULL, "cannot be read: %s", strerror(errno));
-        }
-        reader->line++;
-        size_t n = strlen(reader->text);
-        if (n + 1 == CSV_LINE_CAP && reader->text[n - 1] != '\n')
-            return csv_fail(reader, "the line is longer than %d bytes, or not text", CSV_LINE_CAP - 2);
-        while (n && (reader->text[n - 1] == '\n' || reader->text[n - 1] == '\r')) reader->text[--n] = 0;
-        if (n && reader->text[0] != '#') return 0;
+        const int status = read_line(reader, is_end);
+        if (status || *is_end || (reader->text[0] && reader->text[0] != '#')) return status;
     }
 }
 
@@ -87,11 +96,16 @@ int csv_open(csv_reader *reader, const char *path, const char *const *columns, s
 {
     const bool is_stdin = strcmp(path, "-") == 0;
     *reader = (csv_reader){.name = is_stdin ? "stdin" : path, .n_columns = n_columns, .columns = columns};
+    struct stat information;
+    if (!is_stdin && stat(path, &information) == 0) {
+        if (S_ISDIR(information.st_mode))
+            return fail(EXIT_INPUT, path, NULL, "is a folder; name a CSV file, or - for stdin");
+        if (!S_ISREG(information.st_mode) && !S_ISFIFO(information.st_mode))
+            return fail(EXIT_INPUT, path, NULL,
+                        "is neither a regular file nor a pipe; name a CSV file, or - for stdin");
+    }
     reader->stream = is_stdin ? stdin : fopen(path, "r");
     if (!reader->stream) return fail(EXIT_INPUT, path, NULL, "cannot be opened: %s", strerror(errno));
-    struct stat information;
-    if (fstat(fileno(reader->stream), &information) == 0 && S_ISDIR(information.st_mode))
-        return fail(EXIT_INPUT, path, NULL, "is a folder; name a CSV file, or - for stdin");
     reader->text = malloc(CSV_LINE_CAP);
     if (!reader->text) return fail_memory();
     return read_header(reader, n_required);

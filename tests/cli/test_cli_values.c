@@ -161,6 +161,9 @@ static void damaged_csv_is_refused_with_its_line(void **state)
         {"wi_x,wi_y,wi_z,wo_x,wo_y,wo_z\n0,0,0.9,0,0,1\n", "line 2: (wi_x,wi_y,wi_z) is not a unit vector"},
         {"wi_x,wi_y,wi_z,wo_x,wo_y,wo_z\n0,0,1,1e200,0,1\n", "line 2: (wo_x,wo_y,wo_z) is not a unit vector"},
     };
+    expect_run(RUN("eval", "lambert", "--csv", "/dev/zero"), 3, "/dev/zero: is neither a regular file nor a pipe");
+    const char *const zeros[] = {FACET_PROGRAM, "eval", "lambert", "--csv", "-", NULL};
+    expect_run(run_program(folder, "/dev/zero", NULL, zeros), 3, "stdin:line 1: has a zero byte");
     const char *path = in_folder(folder, "bad.csv");
     for (size_t i = 0; i < sizeof cases/sizeof *cases; i++) {
         write_text(path, cases[i].text);
