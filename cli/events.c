@@ -14,7 +14,7 @@ static const double PROGRESS_STEP = 1; /* [s] */
 
 int events_open(event_log *log, const char *path)
 {
-    *log = (event_log){.told = -PROGRESS_STEP};
+    *log = (event_log){.path = path, .told = -PROGRESS_STEP};
     if (!path) return 0;
     log->stream = strcmp(path, "-") == 0 ? stderr : fopen(path, "a");
     return log->stream ? 0 : fail(EXIT_WORLD, path, NULL, "cannot be opened: %s", strerror(errno));
@@ -48,11 +48,14 @@ static json_writer begin(const event_log *log, const char *name)
     return j;
 }
 
-/* A watcher that has gone away does not disturb the render. */
-static void end(const event_log *log, json_writer *j)
+/* A watcher that has gone away does not disturb the render; a disk that is full is told of once. */
+static void end(event_log *log, json_writer *j)
 {
     json_put_close(j, '}');
-    fflush(log->stream);
+    const bool is_written = fflush(log->stream) == 0 && !ferror(log->stream);
+    if (is_written || errno == EPIPE || log->is_lost) return;
+    log->is_lost = true;
+    warn("%s: events cannot be written: %s; the render goes on", log->path, strerror(errno));
 }
 
 void events_start(event_log *log, const render_options *o, const render_settings *settings, const render_state *state)

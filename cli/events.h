@@ -14,7 +14,9 @@ extern "C" {
 /* Every function but events_open does nothing without a stream. */
 typedef struct event_log {
     FILE *stream; /* NULL: nobody watches */
+    const char *path;
     double told;  /* seconds of the render at the last progress event */
+    bool is_lost; /* an event could not be written, which was warned of */
 } event_log;
 
 /* Appends to the file; "-" is stderr, NULL nothing.  Returns 0 or the exit status. */
