@@ -8,6 +8,7 @@
 
 #include "cli/commands.h"
 #include "cli/json_writer.h"
+#include "cli/render_job.h"
 #include "cli/report.h"
 #include "io/file.h"
 #include "io/image_file.h"
@@ -173,6 +174,8 @@ static int run(int argc, char **argv)
     if (status != PARSE_GO) return status;
     if (s.diff && !has_extension(s.diff, "png"))
         return fail(EXIT_USAGE, NULL, "--diff", "`%s` is not the name of a .png file", s.diff);
+    for (int k = 0; k < 2 && s.diff; k++)
+        if ((status = check_spares(s.diff, paths[k]))) return status;
     side sides[2] = {{.path = paths[0]}, {.path = paths[1]}};
     status = compare(&s, sides);
     for (int k = 0; k < 2; k++) {

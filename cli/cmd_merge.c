@@ -125,8 +125,8 @@ static int write_merged(const render_options *o, const merging *m, const render_
         status = write_outputs(o, &p, &pictures);
     }
     for (size_t i = 0; i < o->outputs.n && !status && !o->quiet; i++)
-        fprintf(stderr, "facet: wrote %s: %zux%zu, %" PRIu32 " spp of %zu shards\n", o->outputs.items[i],
-                result.picture.width, result.picture.height, result.spp, m->n);
+        tell("wrote %s: %zux%zu, %" PRIu32 " spp of %zu shards", o->outputs.items[i], result.picture.width,
+             result.picture.height, result.spp, m->n);
     picture_set_destroy(&pictures);
     render_result_destroy(&result);
     return status;
@@ -148,6 +148,7 @@ static int merge(render_options *o, merging *m, const char *const *paths)
     if (!status && layers_need_features(&layers) && !m->shards[0].head.has_features)
         status = fail(EXIT_INPUT, m->shards[0].path, NULL,
                       "keeps no features for --aov and --denoise; render it with one of them");
+    if (!status) status = check_apart(o, paths, m->n);
     if (!status) status = check_outputs(o);
     for (size_t i = 0; !status && i < m->n; i++) status = add_shard(&m->shards[i], &sum);
     if (!status) status = write_merged(o, m, &sum);

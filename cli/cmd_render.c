@@ -85,8 +85,8 @@ static void summarise(const render_options *o, const render_result *result)
     if (result->noise >= 0) snprintf(noise, sizeof noise, ", noise %.3g %%", 100*result->noise);
     if (result->mean_spp < result->spp) snprintf(mean, sizeof mean, " (mean %.3g)", result->mean_spp);
     for (size_t i = 0; i < o->outputs.n; i++)
-        fprintf(stderr, "facet: wrote %s: %zux%zu, %" PRIu32 " spp%s, %s%s\n", o->outputs.items[i],
-                result->picture.width, result->picture.height, result->spp, mean, time, noise);
+        tell("wrote %s: %zux%zu, %" PRIu32 " spp%s, %s%s", o->outputs.items[i], result->picture.width,
+             result->picture.height, result->spp, mean, time, noise);
 }
 
 /* How far an interrupted render came, and how to go on. */
@@ -214,7 +214,9 @@ static void warn_of_useless(const render_options *o, warning_list *warnings)
 {
     size_t n_png = 0;
     for (size_t i = 0; i < o->outputs.n; i++) n_png += has_extension(o->outputs.items[i], "png");
-    if (o->aov && n_png == o->outputs.n) keep_warning(warnings, "--aov has no effect: no output is an .exr file");
+    const bool is_kept = o->checkpoint && layers_need_features(o->layers); /* for `facet merge --aov` */
+    if (o->aov && n_png == o->outputs.n && !is_kept)
+        keep_warning(warnings, "--aov has no effect: no output is an .exr file");
     if (o->half && n_png == o->outputs.n) keep_warning(warnings, "--half has no effect: no output is an .exr file");
     if (o->exposure.is_given && n_png == 0)
         keep_warning(warnings, "--exposure has no effect: .exr files keep the scene's own radiance");
@@ -223,7 +225,9 @@ static void warn_of_useless(const render_options *o, warning_list *warnings)
 /* The leader's files; the others neither read checkpoints nor write anything. */
 static int check_files(render_options *o, warning_list *warnings)
 {
+    const char *const inputs[] = {o->scene_path, o->env, o->oidn, o->serve_token};
     int status = o->outputs.n == 0 && !o->shard ? name_output(o) : 0;
+    if (!status) status = check_apart(o, inputs, sizeof inputs/sizeof *inputs);
     if (!status) status = check_outputs(o);
     if (!status) status = check_checkpointing(o);
     if (!status) status = events_open(warnings->events, o->events);

@@ -45,9 +45,10 @@ static const command *find_command(const char *name)
     return NULL;
 }
 
+/* The overview, which explains `facet help` itself, too, or the help of a command. */
 static int help(const char *name)
 {
-    if (!name) {
+    if (!name || strcmp(name, "help") == 0 || strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0) {
         print_help();
         return finish_stdout(0);
     }
@@ -59,6 +60,12 @@ static int help(const char *name)
     if (!c) return EXIT_USAGE;
     command_help(c);
     return finish_stdout(0);
+}
+
+/* What follows the arguments that are understood. */
+static int fail_extra(const char *extra, const char *usage)
+{
+    return fail(EXIT_USAGE, NULL, NULL, "unexpected argument `%s`; usage: facet %s", extra, usage);
 }
 
 int main(int argc, char **argv)
@@ -73,9 +80,12 @@ int main(int argc, char **argv)
         return EXIT_USAGE;
     }
     const char *name = argv[1];
-    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0) return help(NULL);
-    if (strcmp(name, "help") == 0) return help(argc > 2 ? argv[2] : NULL);
+    if (strcmp(name, "--help") == 0 || strcmp(name, "-h") == 0)
+        return argc > 2 ? fail_extra(argv[2], "--help") : help(NULL);
+    if (strcmp(name, "help") == 0)
+        return argc > 3 ? fail_extra(argv[3], "help [COMMAND|--json]") : help(argc > 2 ? argv[2] : NULL);
     if (strcmp(name, "--version") == 0 || strcmp(name, "-V") == 0) {
+        if (argc > 2) return fail_extra(argv[2], "--version");
         printf("facet %s\n", facet_version());
         return finish_stdout(0);
     }

@@ -7,20 +7,20 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include "cli/json_writer.h"
 #include "cli/layers.h"
 #include "cli/provenance.h"
 #include "cli/render_job.h"
 #include "cli/report.h"
+#include "io/checkpoint.h"
 #include "io/file.h"
 #include "io/image_file.h"
 #include "render/view.h"
 
 /* ---- Before rendering -------------------------------------------------------------------------- */
 
-/* The folder must exist and take a new file, because outputs are written beside and renamed. */
+/* The folder must exist. */
 static int check_folder(const char *path)
 {
     const char *slash = strrchr(path, '/');
@@ -32,27 +32,62 @@ static int check_folder(const char *path)
         status = fail(EXIT_WORLD, path, NULL, "the folder `%s` cannot be used: %s; make it first", folder,
                       strerror(errno));
     else if (!S_ISDIR(information.st_mode)) status = fail(EXIT_WORLD, path, NULL, "`%s` is not a folder", folder);
-    else if (access(folder, W_OK | X_OK) != 0)
-        status = fail(EXIT_WORLD, path, NULL, "the folder `%s` cannot be written to: %s", folder, strerror(errno));
     free(folder);
     return status;
+}
+
+/* A file is begun as it will be at the end, and given up: then its name is one that can be written.  Removes what
+ * killed runs have left beside it. */
+static int check_writable(const char *path)
+{
+    struct stat information;
+    facet_error why = {0};
+    file_writer writer;
+    const int status = check_folder(path);
+    if (status) return status;
+    if (stat(path, &information) == 0 && !S_ISREG(information.st_mode))
+        return fail(EXIT_WORLD, path, NULL, "exists and is not a regular file; name another output");
+    file_remove_leftovers(path);
+    if (file_writer_open(&writer, path, &why)) return fail_with(FROM_OUTPUT, path, &why);
+    file_writer_discard(&writer);
+    return 0;
+}
+
+int check_spares(const char *output, const char *input)
+{
+    if (!input || !file_is_same(output, input)) return 0;
+    return fail(EXIT_USAGE, output, NULL, "is an input, too, and would be lost; name another output");
+}
+
+int check_apart(const render_options *o, const char *const *inputs, size_t n_inputs)
+{
+    const bool has_events = o->events && strcmp(o->events, "-") != 0;
+    const char *files[MAX_LIST + 2];
+    size_t n = 0;
+    for (; n < o->outputs.n; n++) files[n] = o->outputs.items[n];
+    if (o->checkpoint) files[n++] = o->checkpoint;
+    if (has_events) files[n++] = o->events;
+    for (size_t i = 0; i < n; i++) {
+        for (size_t k = 0; k < i; k++)
+            if (file_is_same(files[i], files[k]))
+                return fail(EXIT_USAGE, files[i], NULL, "is named twice as an output; name it once");
+        for (size_t k = 0; k < n_inputs; k++) {
+            const int status = check_spares(files[i], inputs[k]);
+            if (status) return status;
+        }
+        if (files[i] != o->checkpoint && check_spares(files[i], o->resume)) return EXIT_USAGE;
+    }
+    return 0;
 }
 
 int check_outputs(const render_options *o)
 {
     for (size_t i = 0; i < o->outputs.n; i++) {
         const char *path = o->outputs.items[i];
-        struct stat information;
         if (!has_extension(path, "exr") && !has_extension(path, "png"))
             return fail(EXIT_USAGE, path, NULL, "is neither an .exr nor a .png file; name one of these");
-        for (size_t k = 0; k < i; k++)
-            if (strcmp(path, o->outputs.items[k]) == 0)
-                return fail(EXIT_USAGE, path, NULL, "is named twice as an output; name it once");
-        const int status = check_folder(path);
+        const int status = check_writable(path);
         if (status) return status;
-        if (stat(path, &information) == 0 && !S_ISREG(information.st_mode))
-            return fail(EXIT_WORLD, path, NULL, "exists and is not a regular file; name another output");
-        file_remove_leftovers(path);
     }
     return 0;
 }
@@ -62,11 +97,11 @@ int check_checkpoint(const char *path)
     struct stat information;
     if (has_extension(path, "exr") || has_extension(path, "png"))
         return fail(EXIT_USAGE, "--checkpoint", NULL, "`%s` is named like a picture; name it FILE.ckpt", path);
-    if (stat(path, &information) == 0 && !S_ISREG(information.st_mode))
-        return fail(EXIT_WORLD, path, NULL, "exists and is not a regular file; name another checkpoint");
-    const int status = check_folder(path);
-    if (!status) file_remove_leftovers(path);
-    return status;
+    const bool is_file = stat(path, &information) == 0 && S_ISREG(information.st_mode);
+    if (is_file && information.st_size > 0 && !checkpoint_is_one(path))
+        return fail(EXIT_USAGE, "--checkpoint", NULL,
+                    "`%s` is there and is not a checkpoint; name another file, or remove it", path);
+    return check_writable(path);
 }
 
 /* ---- After rendering --------------------------------------------------------------------------- */

@@ -47,6 +47,8 @@ void warning_list_destroy(warning_list *list);
 typedef struct warning_source {
     warning_list *list;
     const char *path;
+    const render_options *options; /* for what is done with the scene besides; may be NULL */
+    const char *lost;              /* an output that is a file of the scene; NULL: none so far */
 } warning_source;
 void keep_gltf_warning(void *user, const char *text);
 
@@ -57,11 +59,18 @@ int prepare_scene(const render_options *o, warning_list *warnings, scene **resul
 /* All settings but the callbacks.  Returns 0 or the exit status of the error that it printed. */
 int prepare_settings(const render_options *o, const scene *s, size_t i_camera, render_settings *r);
 
-/* Refuses outputs that could not be written at the end: unknown kinds, missing folders, repeated names.  What killed
- * runs have left beside them is removed. */
+/* Refuses an output that is the file of an input, by whatever names; input may be NULL. */
+int check_spares(const char *output, const char *input);
+
+/* Refuses pictures, --checkpoint and --events that are one file, or one of the inputs, which may be NULL, or --resume:
+ * but for a checkpoint, which goes on in its own file. */
+int check_apart(const render_options *o, const char *const *inputs, size_t n_inputs);
+
+/* Refuses outputs that could not be written at the end: unknown kinds, missing folders, names that are too long.  What
+ * killed runs have left beside them is removed. */
 int check_outputs(const render_options *o);
 
-/* The same for a checkpoint. */
+/* The same for a checkpoint, and refuses to replace a file that is none. */
 int check_checkpoint(const char *path);
 
 /* Writes all outputs with their provenance.  One that fails does not keep the others from being written. */

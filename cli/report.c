@@ -49,10 +49,11 @@ void keep_silent(char *error, size_t size)
 /* One line on stderr in one write, so that lines of several processes do not mix. */
 static void say(const char *kind, const char *file, const char *place, const char *text)
 {
-    char line[2048] = "";
-    if (!kept_error) snprintf(line, sizeof line, "facet: %s: ", kind);
+    enum { TEXT_ROOM = 2048 }; /* for what follows the name of a file, however long that is */
+    char line[8192] = "";
+    if (!kept_error) snprintf(line, sizeof line, "facet: %s", kind);
     if (file && *file) {
-        append_clean(line, sizeof line - 1, file);
+        append_clean(line, sizeof line - TEXT_ROOM, file);
         append_clean(line, sizeof line - 1, ":");
         if (!place || !*place) append_clean(line, sizeof line - 1, " ");
     }
@@ -62,7 +63,7 @@ static void say(const char *kind, const char *file, const char *place, const cha
     }
     append_clean(line, sizeof line - 1, text);
     if (kept_error) {
-        if (!kept_error[0] && strcmp(kind, "error") == 0) snprintf(kept_error, kept_size, "%s", line);
+        if (!kept_error[0] && strcmp(kind, "error: ") == 0) snprintf(kept_error, kept_size, "%s", line);
         return;
     }
     strcat(line, "\n");
@@ -76,7 +77,7 @@ int fail(int status, const char *file, const char *place, const char *format, ..
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    say("error", file, place, text);
+    say("error: ", file, place, text);
     return status;
 }
 
@@ -98,7 +99,7 @@ void warn(const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    say("warning", NULL, NULL, text);
+    say("warning: ", NULL, NULL, text);
 }
 
 void note(const char *format, ...)
@@ -108,7 +109,17 @@ void note(const char *format, ...)
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
-    say("note", NULL, NULL, text);
+    say("note: ", NULL, NULL, text);
+}
+
+void tell(const char *format, ...)
+{
+    char text[6000]; /* with a path of any length */
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    say("", NULL, NULL, text);
 }
 
 bool stdout_is_good(void)

@@ -44,6 +44,8 @@ int fail_memory(void);
 /* `facet: warning: ...` and `facet: note: ...` on stderr. */
 void warn(const char *format, ...) __attribute__((format(printf, 1, 2)));
 void note(const char *format, ...) __attribute__((format(printf, 1, 2)));
+/* `facet: ...` on stderr, of what has been done. */
+void tell(const char *format, ...) __attribute__((format(printf, 1, 2)));
 
 /* False once stdout refuses what is written to it: a reason for a long listing to stop. */
 bool stdout_is_good(void);

@@ -85,13 +85,24 @@ static const char *material_name(const scene *s, size_t i)
 
 /* ---- Steps ------------------------------------------------------------------------------------- */
 
+/* Files of the scene that an output would replace, such as box.png, the default picture of box.gltf. */
+static void check_file(void *user, const char *path)
+{
+    warning_source *source = user;
+    const render_options *o = source->options;
+    for (size_t i = 0; i < o->outputs.n && !source->lost; i++)
+        if (file_is_same(o->outputs.items[i], path)) source->lost = o->outputs.items[i];
+}
+
 static int load(const render_options *o, warning_list *warnings, scene **result)
 {
     facet_error why = {0};
     if (!o->scene_path) return demo_scene_create(result, &why) ? fail_with(FROM_INPUT, "demo", &why) : 0;
-    warning_source source = {warnings, o->scene_path};
-    const gltf_options options = {keep_gltf_warning, &source, o->allow_outside, o->max_memory};
-    return gltf_read_with(o->scene_path, &options, result, &why) ? fail_with(FROM_INPUT, o->scene_path, &why) : 0;
+    warning_source source = {.list = warnings, .path = o->scene_path, .options = o};
+    const gltf_options options = {keep_gltf_warning, &source, o->allow_outside, o->max_memory, check_file};
+    if (gltf_read_with(o->scene_path, &options, result, &why)) return fail_with(FROM_INPUT, o->scene_path, &why);
+    if (!source.lost) return 0;
+    return fail(EXIT_USAGE, source.lost, NULL, "is a file of the scene, and would be lost; name another output by -o");
 }
 
 /* --env FILE or R,G,B, and --env-scale.  What options change enters the scene's hash, too. */

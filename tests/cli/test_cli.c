@@ -116,6 +116,9 @@ static void overview_lists_every_command_and_status(void **state)
     for (size_t i = 0; i < N_HELPS; i++) program_run_check(&run, 0, helps[i].name, "");
     program_run_check(&run, 0, "130  interrupted", "");
     assert_string_equal(run.out, again.out);
+    program_run_free(&again);
+    again = RUN("help", "help"); /* the overview is its help */
+    assert_string_equal(run.out, again.out);
     program_run_free(&run);
     program_run_free(&again);
     run = RUN("--version");
@@ -135,6 +138,10 @@ static const mistake mistakes[] = {
     {2, "there is no command `rendr`; did you mean `render`?", {"rendr"}},
     {2, "there is no command `zzzzzzzz`; `facet --help`", {"zzzzzzzz"}},
     {2, "there is no command `evl`", {"help", "evl"}},
+    {2, "unexpected argument `extra`; usage: facet --version", {"--version", "extra"}},
+    {2, "unexpected argument `extra`; usage: facet --help", {"-h", "extra"}},
+    {2, "unexpected argument `extra`; usage: facet help", {"help", "render", "extra"}},
+    {2, "unexpected argument `extra`; usage: facet help", {"help", "--json", "extra"}},
     {2, "no option `--sp`; did you mean `--spp`?", {"render", "--sp", "4"}},
     {2, "no option `--zzzzzzzz`; ", {"render", "--zzzzzzzz", "4"}},
     {2, "no option `-q`", {"render", "-q"}},
@@ -215,6 +222,12 @@ static void messages_stay_on_one_line_whatever_the_file_is_called(void **state)
     program_run run = RUN("info", "two\nlines\x1b[2J.png");
     program_run_check(&run, 3, "", "facet: error: two?lines?[2J.png: ");
     program_run_free(&run);
+    expect_run(RUN("render", "--size", "4x4", "--spp", "1", "-o", "two\nlines.png"), 0,
+               "facet: wrote two?lines.png: 4x4, 1 spp");
+    char name[3000];
+    memset(name, 'a', sizeof name);
+    name[sizeof name - 1] = 0;
+    expect_run(RUN("info", name), 3, "aaa: cannot open: File name too long\n"); /* what is wrong is not cut off */
 }
 
 static void options_end_at_two_dashes(void **state)
