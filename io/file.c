@@ -213,7 +213,7 @@ static char *follow_links(const char *path)
         if (n < 0) {
             break; /* not a link, or nothing */
         }
-        if (i == MOST_LINKS || n == sizeof target) {
+        if (i == MOST_LINKS || (size_t)n == sizeof target) {
             free(name);
             errno = i == MOST_LINKS ? ELOOP : ENAMETOOLONG;
             return NULL;
