@@ -197,6 +197,7 @@ int plugin_supervise(const char *path, double patience, int (*work)(void *contex
         static const int crashes[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
         for (size_t i = 0; i < sizeof crashes/sizeof *crashes; i++) signal(crashes[i], SIG_DFL);
         const int status = work(context, watch);
+        watch->has_finished = true;
         fflush(NULL);
         _exit(status);
     }
@@ -217,8 +218,12 @@ int plugin_supervise(const char *path, double patience, int (*work)(void *contex
             kill(child, SIGKILL);
         }
     }
-    if (WIFEXITED(status)) return WEXITSTATUS(status);
+    if (WIFEXITED(status) && watch->has_finished) return WEXITSTATUS(status);
     whereabouts(watch, where, sizeof where);
+    if (WIFEXITED(status)) /* whose status says nothing of the work, even if it is 0 */
+        return fail(EXIT_INPUT, watch->path, NULL,
+                    "the plugin ended its process, with status %d, %s; its functions must return", WEXITSTATUS(status),
+                    where);
     if (is_killed)
         return fail(EXIT_INPUT, watch->path, NULL,
                     "the plugin has not returned for %g s %s; --patience gives it longer", patience, where);

@@ -20,6 +20,7 @@ typedef struct plugin_watch {
     const char *volatile path;     /* of the plugin that is at work: a text from before plugin_supervise */
     const char *volatile function; /* "eval", ... while one runs; NULL between them */
     const char *volatile check;    /* that the call is for */
+    volatile bool has_finished;    /* the work returned, whatever its status */
 } plugin_watch;
 
 typedef struct plugin {
@@ -37,8 +38,9 @@ int plugin_open(const char *path, const char *const *texts, size_t n, plugin_wat
 /* The model at p->values, which is referred to. */
 verify_subject plugin_subject(const plugin *p);
 
-/* Runs work(context, watch) in a process of its own and returns its exit status; if the process dies, or a function of
- * a plugin does not return for `patience` seconds, prints why and returns EXIT_INPUT.  path: of the (first) plugin. */
+/* Runs work(context, watch) in a process of its own and returns its exit status; if the process dies, a plugin ends
+ * it, or a function of a plugin does not return for `patience` seconds, prints why and returns EXIT_INPUT.
+ * path: of the (first) plugin. */
 int plugin_supervise(const char *path, double patience, int (*work)(void *context, plugin_watch *watch), void *context);
 
 #ifdef __cplusplus
