@@ -298,15 +298,32 @@ static void print_wrapped(const char *text, int column)
     putchar('\n');
 }
 
+/* "a|b|c" from `column` on; what does not fit goes on below, in the same column.  Returns the cursor's column. */
+static int print_choices(const char *choices, const int column)
+{
+    int cursor = column;
+    while (*choices) {
+        const size_t name = strcspn(choices, "|"), length = name + (choices[name] == '|');
+        if (cursor > column && cursor + (int)length > HELP_WIDTH) {
+            printf("\n%*s", column, "");
+            cursor = column;
+        }
+        printf("%.*s", (int)length, choices);
+        cursor += (int)length;
+        choices += length;
+    }
+    return cursor;
+}
+
 static void print_option(const option *o)
 {
-    char left[96];
     const char *value = o->kind == OPTION_CHOICE ? o->choices : o->value;
-    if (o->letter)
-        snprintf(left, sizeof left, "  -%c, --%s%s%s", o->letter, o->name, value ? " " : "", value ? value : "");
-    else snprintf(left, sizeof left, "      --%s%s%s", o->name, value ? " " : "", value ? value : "");
-    fputs(left, stdout);
-    print_wrapped(o->help, (int)strlen(left) + 1);
+    int column = o->letter ? printf("  -%c, --%s", o->letter, o->name) : printf("      --%s", o->name);
+    if (value) {
+        putchar(' ');
+        column = print_choices(value, column + 1);
+    }
+    print_wrapped(o->help, column + 1);
 }
 
 void command_help(const command *c)

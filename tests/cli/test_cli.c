@@ -64,6 +64,19 @@ static void help_of_each_command_is_complete(void **state)
     }
 }
 
+/* A long list of choices goes on below the first. */
+static void choices_in_help_are_complete_and_fit(void **state)
+{
+    (void)state;
+    program_run run = RUN("verify", "--help");
+    program_run_check(&run, 0,
+                      "      --check positive|normalisation|projected-area|weak-furnace|furnace|\n"
+                      "              reciprocity|isotropy|pdf-normalisation|chi-square|weight|\n"
+                      "              efficiency   one check alone\n",
+                      "");
+    program_run_free(&run);
+}
+
 /* The other way round: every option that help shows is accepted, or asks for its value. */
 static void every_option_in_help_is_known(void **state)
 {
@@ -306,6 +319,7 @@ int main(void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(no_arguments_print_the_usage_and_fail),
         cmocka_unit_test(help_of_each_command_is_complete),
+        cmocka_unit_test(choices_in_help_are_complete_and_fit),
         cmocka_unit_test(every_option_in_help_is_known),
         cmocka_unit_test(materials_in_help_are_valid),
         cmocka_unit_test(overview_lists_every_command_and_status),
