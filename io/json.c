@@ -56,8 +56,12 @@ bool json_parse(const unsigned char *bytes, size_t size, json_place *root, facet
     if (json_error_code(&problem) == json_error_out_of_memory)
         return json_fail(root, FACET_NO_MEMORY, "out of memory while reading JSON");
     char place[sizeof why->place];
+    /* jansson names its own flag, which nobody who reads the file can set */
+    const bool is_nul = json_error_code(&problem) == json_error_null_character ||
+                        json_error_code(&problem) == json_error_null_byte_in_key;
     snprintf(place, sizeof place, "line %d, column %d", problem.line, problem.column);
-    facet_error_set(why, FACET_BAD_FILE, place, "not valid JSON: %s", problem.text);
+    facet_error_set(why, FACET_BAD_FILE, place, "not valid JSON: %s",
+                    is_nul ? "\\u0000, the character that ends texts, cannot be part of one" : problem.text);
     return false;
 }
 

@@ -32,17 +32,20 @@ static bool find_choice(const json_place *place, const facet_parameter *paramete
     return json_fail(place, FACET_UNKNOWN_NAME, "\"%.40s\" is not one of %s", name, parameter->choices);
 }
 
-/* One to three numbers, or a choice's name as its index. */
+/* One to three numbers, or a choice's name as its index: which number that is, files do not say. */
 static bool read_values(const json_place *place, const facet_parameter *parameter, double values[3], size_t *n)
 {
     const char *name;
     *n = 1;
+    if (parameter->kind == FACET_CHOICE) {
+        if (json_kind_here(place) != JSON_KIND_STRING)
+            return json_fail(place, FACET_BAD_VALUE, "must be a name: one of %s", parameter->choices);
+        return json_string_here(place, &name) && find_choice(place, parameter, name, &values[0]);
+    }
     switch (json_kind_here(place)) {
     case JSON_KIND_STRING:
-        if (parameter->kind != FACET_CHOICE)
-            return json_fail(place, FACET_BAD_VALUE, "is a string; must be a number from %g to %g", parameter->low,
-                             parameter->high);
-        return json_string_here(place, &name) && find_choice(place, parameter, name, &values[0]);
+        return json_fail(place, FACET_BAD_VALUE, "is a string; must be a number from %g to %g", parameter->low,
+                         parameter->high);
     case JSON_KIND_ARRAY:
         *n = json_count(place);
         if (*n != 3) return json_fail(place, FACET_BAD_VALUE, "has %zu numbers; must have 1 or 3", *n);
@@ -59,11 +62,10 @@ static bool set_member(const json_place *place, facet_material *material)
 {
     const facet_parameter *const parameter = find_parameter(material, place->key);
     facet_error problem = {0};
-    double values[3];
-    size_t n;
-    if (!parameter)
-        return json_fail(place, FACET_UNKNOWN_NAME, "%s has no such parameter", facet_model_get(material->model)->name);
-    if (!read_values(place, parameter, values, &n)) return false;
+    double values[3] = {0};
+    size_t n = 1;
+    /* a name that the model does not have is left to facet_material_set, which says what it has */
+    if (parameter && !read_values(place, parameter, values, &n)) return false;
     const facet_status status = facet_material_set(material, place->key, values, n, &problem);
     return !status || json_fail(place, status, "%s", problem.text);
 }

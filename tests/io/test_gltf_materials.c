@@ -192,11 +192,14 @@ static void bsdf_materials_are_checked_by_the_parameter_table(void **state)
     } cases[] = {
         {"{\"alpha\":1}", ".model", "missing"},
         {"{\"model\":\"paint\"}", ".model", ""},
-        {"{\"model\":\"ggx\",\"gloss\":1}", ".gloss", "no such parameter"},
+        {"{\"model\":\"ggx\",\"gloss\":1}", ".gloss", "ggx has no such parameter; it has alpha, "},
         {"{\"model\":\"ggx\",\"alpha\":-1}", ".alpha", ""},
         {"{\"model\":\"ggx\",\"alpha\":\"low\"}", ".alpha", "is a string; must be a number"},
         {"{\"model\":\"ggx\",\"ks\":[1,2]}", ".ks", "must have 1 or 3"},
         {"{\"model\":\"ggx\",\"g2\":\"maybe\"}", ".g2", "is not one of"},
+        {"{\"model\":\"ggx\",\"g2\":1}", ".g2", "must be a name: one of correlated|separable"},
+        {"{\"model\":\"ggx\",\"metal\":3}", ".metal", "must be a name: one of "},
+        {"{\"model\":\"ggx\",\"energy\":[1,1,1]}", ".energy", "must be a name: one of "},
     };
     for (size_t i = 0; i < sizeof cases/sizeof *cases; i++) {
         char members[256], place[96];

@@ -43,6 +43,11 @@ static void syntax_errors_are_refused_with_their_line(void **state)
         assert_int_equal(why.status, FACET_BAD_FILE);
         assert_true(why.text[0]);
     }
+    static const char *const nuls[] = {"[\"a\\u0000b\"]", "{\"a\\u0000b\":1}"};
+    for (size_t i = 0; i < 2; i++) {
+        assert_false(parse(nuls[i]));
+        assert_string_equal(why.text, "not valid JSON: \\u0000, the character that ends texts, cannot be part of one");
+    }
     assert_false(parse("{\n\"a\": oops}"));
     assert_string_equal(why.place, "line 2, column 9");
 }
