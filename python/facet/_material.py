@@ -57,6 +57,8 @@ class Material:
     def __init__(self, spec: str) -> None:
         """Parses a specification such as "ggx alpha=.3 ks=.9,.7,.3"."""
         c, why = ffi.new("facet_material *"), ffi.new("facet_error *")
+        if not isinstance(spec, str):
+            raise TypeError(f"spec: {spec!r} is not a text such as 'ggx alpha=.3'")
         encoded = spec.encode()
         if b"\0" in encoded:
             raise ValueError("a specification has no zero bytes")
@@ -320,14 +322,15 @@ def _set(c: Any, name: str, value: Any) -> None:
     """One parameter of a facet_material from a Python value."""
     info, why = lib.facet_model_get(c.model), ffi.new("facet_error *")
     names = [text(info.parameters[i].name) for i in range(info.n_parameters)]
-    if isinstance(value, str):
-        if name in names and info.parameters[names.index(name)].kind == lib.FACET_CHOICE:
-            choices = text(info.parameters[names.index(name)].choices).split("|")
-            if value not in choices:
-                fail(lib.FACET_BAD_VALUE, name, f"'{value}' is not a choice; give one of {'|'.join(choices)}")
-            value = choices.index(value)
-        elif name in names:
-            raise TypeError(f"{name}: '{value}' is a text; give a number")
+    if name in names and info.parameters[names.index(name)].kind == lib.FACET_CHOICE:
+        choices = text(info.parameters[names.index(name)].choices).split("|")
+        if not isinstance(value, str):
+            raise TypeError(f"{name}: {value!r} is not a text; give one of {'|'.join(choices)}")
+        if value not in choices:
+            fail(lib.FACET_BAD_VALUE, name, f"'{value}' is not a choice; give one of {'|'.join(choices)}")
+        value = choices.index(value)
+    elif name in names and isinstance(value, str):
+        raise TypeError(f"{name}: '{value}' is a text; give a number")
     try:
         if value is None:
             raise TypeError

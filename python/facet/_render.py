@@ -44,10 +44,7 @@ def read_exr(path: Path) -> dict[str, Array]:
 
     The layer without a name is "".  Needs `pip install facet-brdf[render]`.
     """
-    try:
-        import OpenEXR  # type: ignore[import-not-found, unused-ignore]
-    except ImportError:
-        raise ImportError("reading pictures needs the package OpenEXR: pip install 'facet-brdf[render]'") from None
+    OpenEXR = _open_exr()
     path = os.fspath(path)
     if not os.path.exists(path):
         raise FileNotFoundError(f"{path}: cannot open: No such file or directory")
@@ -58,6 +55,15 @@ def read_exr(path: Path) -> dict[str, Array]:
                 layer, _, last = name.rpartition(".")
                 layers.setdefault(layer, {})[last] = np.asarray(channel.pixels)
     return {layer: _joined(channels) for layer, channels in layers.items()}
+
+
+def _open_exr() -> Any:
+    """The package OpenEXR."""
+    try:
+        import OpenEXR  # type: ignore[import-not-found, unused-ignore]
+    except ImportError:
+        raise ImportError("reading pictures needs the package OpenEXR: pip install 'facet-brdf[render]'") from None
+    return OpenEXR
 
 
 def _joined(channels: dict[str, Array]) -> Array:
@@ -106,6 +112,7 @@ def render(scene: Scene = None, *, aov: Sequence[str] | None = None, size: tuple
     What the program warns of is a RuntimeWarning, and its error an exception with its own message: ValueError for a wrong
     argument or a damaged file, FileNotFoundError, OSError if the system refuses.
     """
+    _open_exr()  # a picture that cannot be read is not worth its time
     with tempfile.TemporaryDirectory(prefix="facet-") as folder:
         path = _scene_path(scene, folder)
         picture = os.path.join(folder, "picture.exr")

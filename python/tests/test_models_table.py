@@ -46,6 +46,9 @@ def test_ranges_are_what_is_accepted(model: facet.Model, p: facet.Parameter) -> 
             assert model(**with_partner(model, p.name, choice))[p.name] == choice
         with pytest.raises(ValueError, match=rf"{p.name}: 'neither' is not a choice; give one of "):
             model(**with_partner(model, p.name, "neither"))
+        for index in (0, 1, 1.0, None, True):
+            with pytest.raises(TypeError, match=rf"^{p.name}: .* is not a text; give one of "):
+                model(**with_partner(model, p.name, index))
         return
     for end in (p.low, p.high):
         got = model(**with_partner(model, p.name, end))[p.name]
@@ -75,6 +78,9 @@ def test_errors_are_of_the_right_kind() -> None:
         facet.ggx(roughness=0.3)  # type: ignore[call-arg]
     with pytest.raises(TypeError, match=r"^ggx\(\) takes its parameters by name"):
         facet.ggx(0.3)  # type: ignore[misc]
+    for nothing in (3, None, b"ggx"):
+        with pytest.raises(TypeError, match="^spec: .* is not a text"):
+            facet.material(nothing)  # type: ignore[arg-type]
     with pytest.raises(ValueError, match="^ior: 'ks' is given as well; give one of the two$"):
         facet.ggx(ks=0.5, ior=1.5)
     with pytest.raises(ValueError, match="zero bytes"):

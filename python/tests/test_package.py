@@ -57,6 +57,18 @@ def test_a_lambertian_lobe_is_drawn_as_its_formula() -> None:
     assert len(points) > 300 and np.hypot(x, y).max() > 149
 
 
+def test_what_reads_pictures_is_looked_for_before_they_are_rendered(tmp_path: pathlib.Path,
+                                                                    monkeypatch: pytest.MonkeyPatch) -> None:
+    program, started = tmp_path / "facet", tmp_path / "started"
+    program.write_text(f"#!/bin/sh\ntouch '{started}'\n")
+    program.chmod(0o755)
+    monkeypatch.setenv("FACET", str(program))
+    monkeypatch.setitem(sys.modules, "OpenEXR", None)
+    with pytest.raises(ImportError, match=r"reading pictures needs the package OpenEXR: pip install"):
+        facet.render(size=(8, 8), spp=1)
+    assert not started.exists()
+
+
 mypy = pytest.mark.skipif(not importlib.util.find_spec("mypy"), reason="mypy is not installed")
 
 
