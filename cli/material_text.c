@@ -23,11 +23,26 @@ static const char *near_name(const char *text, const char *place, char *wrong, s
     return meant && near.distance > 0 ? meant : NULL;
 }
 
+/* What is no model but has a text of the same form, where it is taken; NULL for all else. */
+static const char *said_of_foreign(const char *text)
+{
+    static const char *const kinds[][2] = {
+        {"merl", "`merl file=FILE.binary`, a measurement, is taken by `facet plot` and `facet verify` alone"},
+        {"plugin", "`plugin file=FILE.so` is taken by `facet plot` alone; `facet verify` has --plugin FILE.so"}};
+    const char *word = text + strspn(text, " \t\r\n");
+    const size_t length = strcspn(word, " \t\r\n");
+    for (size_t i = 0; i < sizeof kinds/sizeof *kinds; i++)
+        if (strlen(kinds[i][0]) == length && strncmp(word, kinds[i][0], length) == 0) return kinds[i][1];
+    return NULL;
+}
+
 int read_material(const char *text, const char *place, facet_material *m)
 {
     facet_error why = {0};
     facet_status status = facet_material_parse(text, m, &why);
     if (!status) return 0;
+    const char *foreign = said_of_foreign(text);
+    if (foreign) return fail(EXIT_USAGE, place, NULL, "%s", foreign);
     char wrong[96];
     const char *meant = status == FACET_UNKNOWN_NAME ? near_name(text, why.place, wrong, sizeof wrong) : NULL;
     char suggested[80] = "";

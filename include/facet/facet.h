@@ -192,7 +192,8 @@ FACET_API facet_sample facet_bsdf_sample(const facet_bsdf *bsdf, const float wo[
 FACET_API facet_sample64 facet_bsdf64_sample(const facet_bsdf64 *bsdf, const double wo[3], const double u[3]);
 
 /* The distribution's own terms at the unit vector m: D(m) [1/sr], Lambda(m) and G1 = 1/(1 + Lambda)
- * with m taken as a direction of view.  All 0 for a model without a distribution (lambert, smooth glass). */
+ * with m as a direction of view above the horizon.  Below it D and G1 are 0, since no microfacet shows its face, and
+ * Lambda is whatever the model's formula gives.  All 0 for a model without a distribution (lambert, smooth glass). */
 typedef struct facet_terms {
     float D, Lambda, G1;
 } facet_terms;
