@@ -60,6 +60,17 @@ static series make_curve(curve *c, const figure *f, const curve_kind *kind, cons
     return series_make(0, c->label, c->n, c->x, c->y);
 }
 
+/* An integral that overflows would leave a picture without its curve. */
+static facet_status refuse_overflow(const curve *c, const figure_material *m, facet_error *why)
+{
+    for (size_t i = 0; i < c->n; i++)
+        if (isinf(c->y[i]))
+            return facet_error_set(
+                why, FACET_BAD_VALUE, m->label,
+                "its integral at %g degrees is too large for a number; f is far beyond any surface's", c->x[i]);
+    return FACET_OK;
+}
+
 facet_status draw_curves(canvas *page, box place, const figure *f, const curve_kind *kind, facet_error *why)
 {
     const size_t n_views = kind->view ? f->n_thetas : 1, n_each = kind->other ? 2 : 1;
@@ -74,7 +85,9 @@ facet_status draw_curves(canvas *page, box place, const figure *f, const curve_k
     for (size_t i = 0; i < n; i++) {
         const size_t view = i/n_each%n_views;
         const bool is_other = i%n_each == 1;
-        items[i] = make_curve(&curves[i], f, kind, &f->materials[i/n_each/n_views], f->thetas[view], is_other);
+        const figure_material *m = &f->materials[i/n_each/n_views];
+        items[i] = make_curve(&curves[i], f, kind, m, f->thetas[view], is_other);
+        if (kind->is_integral && (status = refuse_overflow(&curves[i], m, why))) goto done;
         items[i].ink = palette_colour(i/n_each);
         items[i].dash = kind->other ? (is_other ? DASHED : SOLID) : (dash)(i%N_DASHES);
     }

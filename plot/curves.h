@@ -22,6 +22,7 @@ typedef struct curve_kind {
     const char *view;  /* "θₒ = ": there is a curve for each theta, named so; NULL: there is one */
     bool is_symmetric; /* a polar plot shows -high to high */
     int n_angles;      /* 0: as many as narrow lobes need */
+    bool is_integral;  /* its values are finite where f is moderate: an infinite one is an error, and no gap */
 } curve_kind;
 
 facet_status draw_curves(canvas *page, box place, const figure *f, const curve_kind *kind, facet_error *why);

@@ -119,7 +119,8 @@ facet_status draw_albedo(canvas *page, box place, const figure *f, facet_error *
                              .y_name = "directional albedo [1]",
                              .high = 90,
                              .is_symmetric = true,
-                             .n_angles = 45};
+                             .n_angles = 45,
+                             .is_integral = true};
     return draw_curves(page, place, f, &kind, why);
 }
 

@@ -10,8 +10,8 @@
 /* cmocka needs the headers above */
 #include <cmocka.h>
 
-/* One with f = 1/pi everywhere. */
-static inline void write_merl(const char *path)
+/* One with this f everywhere [1/sr]. */
+static inline void write_merl_of(const char *path, double f)
 {
     static const int sizes[3] = {90, 90, 180};
     static const double scales[3] = {1/1500.0, 1.15/1500, 1.66/1500};
@@ -20,8 +20,14 @@ static inline void write_merl(const char *path)
     fwrite(sizes, sizeof sizes, 1, stream);
     for (int channel = 0; channel < 3; channel++)
         for (int i = 0; i < 90*90*180; i++) {
-            const double value = 0.31830988618379067/scales[channel];
+            const double value = f/scales[channel];
             fwrite(&value, sizeof value, 1, stream);
         }
     assert_int_equal(fclose(stream), 0);
+}
+
+/* One with f = 1/pi, which reflects all light. */
+static inline void write_merl(const char *path)
+{
+    write_merl_of(path, 0.31830988618379067);
 }

@@ -99,8 +99,9 @@ verify_result check_normalisation(const verify_subject *s)
     if (!s->D) return check_leave_out(VERIFY_NORMALISATION, "the model gives no D");
     verify_result r = check_start(s, VERIFY_NORMALISATION);
     const double n[3] = {0, 0, 1}, area = over_normals(projected_normal, s, PART);
+    char text[CHECK_NUMBER];
     check_is_worst(&r, fabs(area - 1), n, NULL);
-    snprintf(r.found, sizeof r.found, "Int D cos dm = %.7f", area);
+    snprintf(r.found, sizeof r.found, "Int D cos dm = %s", check_number(area, 7, text));
     return r;
 }
 
@@ -112,16 +113,18 @@ verify_result check_projected_area(const verify_subject *s)
     verify_result r = check_start(s, VERIFY_PROJECTED_AREA);
     double views[VERIFY_MOST_VIEWS][3];
     const int n = verify_views(s, views);
+    char text[CHECK_NUMBER];
     for (int i = 0; i < n; i++) {
         if (views[i][2] < 0) continue;
         const at_view at = masked_view_of(s, views[i]);
         const double all = over_normals(normal_towards, &at, PART);
         if (check_is_worst(&r, fabs(all - views[i][2]), views[i], NULL))
-            snprintf(r.found, sizeof r.found, "Int D (v.m) dm = %.6f, cos_v = %.6f", all, views[i][2]);
+            snprintf(r.found, sizeof r.found, "Int D (v.m) dm = %s, cos_v = %.6f", check_number(all, 6, text),
+                     views[i][2]);
         if (!s->G1) continue;
         const double seen = over_normals(visible_normal, &at, PART*views[i][2])/views[i][2];
         if (check_is_worst(&r, fabs(seen - 1), views[i], NULL))
-            snprintf(r.found, sizeof r.found, "G1 Int D (v.m)+ dm/cos_v = %.6f", seen);
+            snprintf(r.found, sizeof r.found, "G1 Int D (v.m)+ dm/cos_v = %s", check_number(seen, 6, text));
     }
     return r;
 }
@@ -132,11 +135,12 @@ verify_result check_weak_furnace(const verify_subject *s)
     verify_result r = check_start(s, VERIFY_WEAK_FURNACE);
     double views[VERIFY_MOST_VIEWS][3];
     const int n = verify_views(s, views);
+    char text[CHECK_NUMBER];
     for (int i = 0; i < n; i++) {
         if (views[i][2] < 0) continue;
         const double sum = verify_weak_furnace(s, views[i]);
         if (check_is_worst(&r, fabs(sum - 1), views[i], NULL))
-            snprintf(r.found, sizeof r.found, "Int G1 D/(4 cos_o) = %.6f", sum);
+            snprintf(r.found, sizeof r.found, "Int G1 D/(4 cos_o) = %s", check_number(sum, 6, text));
     }
     return r;
 }
@@ -148,11 +152,12 @@ verify_result check_furnace(const verify_subject *s)
     verify_result r = check_start(s, VERIFY_FURNACE);
     double views[VERIFY_MOST_VIEWS][3], highest = 0;
     const int n = verify_views(s, views);
+    char text[CHECK_NUMBER];
     for (int i = 0; i < n; i++) {
         const double albedo = verify_albedo(s, views[i]);
         highest = fmax(highest, albedo);
         if (check_is_worst(&r, verify_furnace_deviation(s, albedo), views[i], NULL))
-            snprintf(r.found, sizeof r.found, "the albedo is %.6f", albedo);
+            snprintf(r.found, sizeof r.found, "the albedo is %s", check_number(albedo, 6, text));
     }
     if (r.worst <= 0) snprintf(r.found, sizeof r.found, "the albedo is at most %.6f", highest);
     return r;

@@ -35,6 +35,7 @@ verify_result check_pdf(const verify_subject *s, const verify_settings *settings
     const int n = verify_views(s, views), draws = settings->n_samples/4;
     for (int i = 0; i < n; i++) {
         double wi[3], weight[3];
+        char text[CHECK_NUMBER];
         const at_view at = view_of(s, views[i]);
         const double through[3] = {-at.wo[0], -at.wo[1], -at.wo[2]};
         const double mass = over_mirrored(density_towards, &at, at.wo, PART) +
@@ -45,7 +46,8 @@ verify_result check_pdf(const verify_subject *s, const verify_settings *settings
         const double share = lost/(double)draws, spread = sqrt(fmax(share*(1 - share), 1.0/draws)/draws);
         if (check_is_worst(&r, fabs(mass + share - 1)/(1e-3 + 4*spread), views[i],
                            NULL)) /* in units of what is allowed */
-            snprintf(r.found, sizeof r.found, "Int pdf = %.5f, and %.5f of the draws give no sample", mass, share);
+            snprintf(r.found, sizeof r.found, "Int pdf = %s, and %.5f of the draws give no sample",
+                     check_number(mass, 5, text), share);
     }
     return r;
 }
@@ -106,7 +108,10 @@ verify_result check_chi_square(const verify_subject *s, const verify_settings *s
         /* in units of what is allowed: the logarithm of p over that of the level */
         const double level = verify_level(settings), p = result.test.p;
         const double deviation = p > 0 ? log(p)/log(level) : INFINITY;
-        if (check_is_worst(&r, deviation, wo, NULL))
+        if (!check_is_worst(&r, deviation, wo, NULL)) continue;
+        if (!isfinite(result.test.statistic))
+            snprintf(r.found, sizeof r.found, "chi^2 overflows, by the integral of the pdf");
+        else
             snprintf(r.found, sizeof r.found, "chi^2 = %.1f of %d degrees, p = %.2g (level %.1g)",
                      result.test.statistic, result.test.degrees, p, level);
     }

@@ -19,6 +19,10 @@ verify_result check_leave_out(verify_check check, const char *why);
  * where the check is of a whole view.  Whether it is the largest so far. */
 bool check_is_worst(verify_result *r, double deviation, const double wo[3], const double *wi);
 
+/* A number of so many decimals, in powers of ten if it is so large that its digits would fill a line. */
+enum { CHECK_NUMBER = 32 };
+const char *check_number(double x, int n_decimals, char text[CHECK_NUMBER]);
+
 double largest_channel(const double f[3]);
 
 /* Sample number k of those that a seed gives. */

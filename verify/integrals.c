@@ -23,6 +23,7 @@ typedef struct plane_integral {
     sphere_function g;
     const void *context;
     double tolerance;                         /* of a part of a line */
+    int depth;                                /* of halving */
     double start;                             /* azimuth of the first line */
     double end;                               /* of the line, in its distance */
     double cos_phi, sin_phi;                  /* of the line */
@@ -41,17 +42,31 @@ static double along_line(double phi, const void *context)
     double sum = 0;
     for (int i = 0; i + 1 < N_CUTS && cuts[i] < line.end; i++)
         sum += gauss_kronrod(line.along, &line, log(cuts[i]), log(fmin(cuts[i + 1], line.end)), line.tolerance,
-                             DEEPEST);
+                             line.depth);
     return sum;
 }
 
-static double over_plane(const plane_integral *p)
+static double over_sectors(const plane_integral *p)
 {
     double sum = 0;
     for (int k = 0; k < SECTORS; k++)
         sum += gauss_kronrod(along_line, p, p->start + 2*PI*k/SECTORS, p->start + 2*PI*(k + 1)/SECTORS,
-                             8*p->tolerance, DEEPEST);
+                             8*p->tolerance, p->depth);
     return sum;
+}
+
+/* A first look without any halving says how large the integral is.  Where it saw far more than there is, as between the
+ * nodes of a narrow lobe, the second look is asked again with the tolerance that its own result deserves. */
+static double over_plane(const plane_integral *p)
+{
+    plane_integral q = *p;
+    const double estimate = over_sectors(&q);
+    q.depth = DEEPEST;
+    q.tolerance = quadrature_tolerance(p->tolerance, estimate);
+    const double sum = over_sectors(&q);
+    if (!(fabs(sum) < 0.1*fabs(estimate)) || q.tolerance == p->tolerance) return sum;
+    q.tolerance = quadrature_tolerance(p->tolerance, sum);
+    return over_sectors(&q);
 }
 
 /* ---- Normals, by their slopes ------------------------------------------------------------------ */

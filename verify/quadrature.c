@@ -71,6 +71,11 @@ quadrature unit_interval(double h)
     return rule;
 }
 
+double quadrature_tolerance(double tolerance, double estimate)
+{
+    return fabs(estimate) > 1e3 ? fmax(tolerance, 1e-4*fabs(estimate)) : tolerance;
+}
+
 static double gauss_5x5(plane_function f, const void *context, const double low[2], const double high[2])
 {
     static const double x[] = {0.04691007703066800, 0.23076534494715845, 0.5, 0.76923465505284155, 0.95308992296933200};
@@ -108,7 +113,8 @@ static double refine(plane_function f, const void *context, const double low[2],
 double cubature(plane_function f, const void *context, const double low[2], const double high[2], double tolerance,
                 int least_depth)
 {
-    return refine(f, context, low, high, gauss_5x5(f, context, low, high), tolerance, least_depth, 0);
+    const double whole = gauss_5x5(f, context, low, high);
+    return refine(f, context, low, high, whole, quadrature_tolerance(tolerance, whole), least_depth, 0);
 }
 
 /* [QUADPACK] nodes from the end to the middle, the weights of Kronrod's rule, and of Gauss's at every other node. */

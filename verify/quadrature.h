@@ -27,8 +27,14 @@ quadrature whole_line(double h);
 quadrature half_line(double h);
 quadrature unit_interval(double h);
 
+/* The absolute tolerance for an integral of which this is an estimate.  A density or an albedo is about 1, where the
+ * caller's tolerance has room for what rounding leaves, some 30 ulp.  At 1e20 it has not, nor for the kinks of a table
+ * of measurements, and every part would be halved to the end.  What is above 1000 is wrong by so much that four digits
+ * say it: the tolerance is then 1e-4 of it, and for an estimate that overflows infinite, which ends the halving. */
+double quadrature_tolerance(double tolerance, double estimate);
+
 /* Int f(x, y) over a rectangle, by halving until a 5 x 5 Gauss rule and its four quarters agree within
- * `tolerance` (absolute, of the whole); at least `least_depth` times, at most 9 times. */
+ * quadrature_tolerance(`tolerance`, the first estimate), of the whole; at least `least_depth` times, at most 9. */
 typedef double (*plane_function)(double x, double y, const void *context);
 double cubature(plane_function f, const void *context, const double low[2], const double high[2], double tolerance,
                 int least_depth);

@@ -76,6 +76,12 @@ bool check_is_worst(verify_result *r, double deviation, const double wo[3], cons
     return true;
 }
 
+const char *check_number(double x, int n_decimals, char text[CHECK_NUMBER])
+{
+    snprintf(text, CHECK_NUMBER, fabs(x) < 1e9 ? "%.*f" : "%.*g", n_decimals, x);
+    return text;
+}
+
 double largest_channel(const double f[3])
 {
     return fmax(f[0], fmax(f[1], f[2]));

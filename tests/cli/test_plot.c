@@ -229,6 +229,8 @@ static void measurements_are_drawn_like_models(void **state)
     expect(RUN("ggx", "--minus", "merl file=white.binary", "--of", "heightfield", "-o", "y.png"), 2,
            "merl file=white.binary: is none of facet's models");
     expect(RUN("merl", "--of", "f", "-o", "y.png"), 2, "SPEC:merl: has no file; write `merl file=FILE.binary`");
+    write_merl_of(in_folder(folder, "huge.binary"), 1e300);
+    expect(RUN("merl file=huge.binary", "--of", "albedo", "-o", "a.png"), 0, "");
     expect(RUN("merl file=absent.binary", "--of", "f", "-o", "y.png"), 3, "absent.binary: ");
     write_text(in_folder(folder, "text.binary"), "no measurements\n");
     expect(RUN("merl file=text.binary", "--of", "f", "-o", "y.png"), 3, "text.binary:byte 0: its sizes are");
@@ -269,6 +271,8 @@ static void plugins_that_fail_end_with_a_line(void **state)
 #define BAD(...) RUN(__VA_ARGS__, "ggx", "--of", "f", "-o", "z.png")
     expect(BAD("plugin"), 2, "SPEC:plugin: has no file; write `plugin file=FILE.so");
     expect(BAD("plugin file=a.so file=b.so"), 2, "SPEC:file: the key is given twice");
+    expect(RUN(PLUGIN("leave"), "--of", "f", "-o", "z.png"), 3, "ended its process, with status 0, in eval;");
+    expect(RUN(PLUGIN("huge") " scale=308", "--of", "albedo", "-o", "z.png"), 2, "is too large for a number; ");
     expect(BAD("plugin file=absent.so"), 3, "absent.so: No such file");
     expect(BAD(PLUGIN("gtr1_ggx_masking") " alfa=.1"), 2, "did you mean `alpha`?");
     expect(BAD(PLUGIN("gtr1_ggx_masking") " alpha=7"), 2, "gtr1_ggx_masking.so:alpha: 7 is out of range");

@@ -95,6 +95,8 @@ static void plugins_that_fail_end_with_a_line(void **state)
 {
     (void)state;
     expect(VERIFY("--plugin", plugin("crash")), 3, "", "was ended by signal 11");
+    expect(VERIFY("--plugin", plugin("leave")), 3, "", "ended its process, with status 0, in eval, called by");
+    expect(VERIFY("--plugin", plugin("leave_at_start")), 3, "", "with status 7, in the library's start");
     expect(VERIFY("--plugin", plugin("hang"), "--patience", "0.5"), 3, "", "has not returned for 0.5 s in eval");
     expect(VERIFY("--plugin", plugin("nan")), 1, "positive           FAILS  inf", "");
     expect(VERIFY("--plugin", plugin("no_describe")), 3, "", "defines no facet_plugin_describe");
@@ -109,13 +111,27 @@ static void plugins_that_fail_end_with_a_line(void **state)
     expect(VERIFY("--plugin", "text.so"), 3, "", "is no shared library");
 }
 
+/* As bench and people write them: where quadrature has an absolute tolerance only, these take hours. */
+static void huge_values_are_measured_or_overflow(void **state)
+{
+    (void)state;
+    const char *const lines[] = {"scale=20",  "the albedo is 3.14159e+20", "scale=300", "the albedo is 3.14159e+300",
+                                 "scale=308", "the albedo is inf"};
+    for (size_t i = 0; i < sizeof lines/sizeof *lines; i += 2)
+        expect(VERIFY("--plugin", plugin("huge"), lines[i], "--check", "furnace"), 1, lines[i + 1], "");
+    expect(VERIFY("--plugin", plugin("huge"), "--check", "chi-square", "--samples", "10000"), 1, "chi^2 overflows", "");
+    expect(VERIFY("--plugin", plugin("huge"), "--samples", "10000", "--json"), 1, "\"worst\": null", "");
+}
+
 static void measurements_are_of_their_format(void **state)
 {
     (void)state;
     write_text(in_folder(folder, "text.binary"), "no measurements\n");
     expect(VERIFY("merl file=text.binary"), 3, "", "text.binary:byte 0: its sizes are");
     expect(VERIFY("merl file=absent.binary"), 3, "", "absent.binary");
-    expect(VERIFY("merl"), 2, "", "merl");
+    expect(VERIFY("merl"), 2, "", "`merl file=FILE.binary`");
+    write_merl_of(in_folder(folder, "huge.binary"), 1e300);
+    expect(VERIFY("merl file=huge.binary", "--check", "furnace"), 1, "the albedo is 3.14159e+300", "");
 }
 
 static void materials_are_verified(void **state)
@@ -224,6 +240,7 @@ int main(void)
         cmocka_unit_test(the_rest_of_a_mistaken_model_holds),
         cmocka_unit_test(the_example_holds),
         cmocka_unit_test(plugins_that_fail_end_with_a_line),
+        cmocka_unit_test(huge_values_are_measured_or_overflow),
         cmocka_unit_test(measurements_are_of_their_format),
         cmocka_unit_test(materials_are_verified),
         cmocka_unit_test(errors_against_tables_are_those_in_the_documents),

@@ -9,6 +9,7 @@
 #include <cmocka.h>
 
 #include "verify/integrals.h"
+#include "verify/quadrature.h"
 #include "verify/views.h"
 
 #define PI 3.14159265358979323846
@@ -71,11 +72,58 @@ static void lobes_of_any_width_are_found(void **state)
     }
 }
 
+typedef struct scaled {
+    double factor;
+    long *n_calls;
+} scaled;
+
+static double scaled_bump(const void *context, const double v[3])
+{
+    static const double width = 0.01;
+    const scaled *s = context;
+    ++*s->n_calls;
+    return s->factor*bump(&width, v)*(1 + 1e-5*sin(1e5*v[0]));
+}
+
+static double scaled_wave(double x, double y, const void *context)
+{
+    const scaled *s = context;
+    ++*s->n_calls;
+    return s->factor*exp(sin(7*x)*y);
+}
+
+/* Rounding at 1e20 is above every absolute tolerance: the work must not grow with the function, nor with its noise.
+ * What overflows is infinite, at once. */
+static void huge_functions_take_no_more_work(void **state)
+{
+    (void)state;
+    static const double low[2] = {0, 0}, high[2] = {2, 2};
+    double sphere = 0, plane = 0;
+    long sphere_calls = 0, plane_calls = 0;
+    for (double factor = 1e6; factor < 1e307; factor *= 1e9) {
+        long n = 0;
+        const scaled s = {factor, &n};
+        const double over = over_sphere(scaled_bump, &s, bump_axis, 1e-6);
+        if (!sphere_calls) sphere_calls = n, sphere = over/factor;
+        assert_true(n <= sphere_calls);
+        near(over/factor, sphere, 1e-3);
+        n = 0;
+        const double whole = cubature(scaled_wave, &s, low, high, 1e-9, 0);
+        if (!plane_calls) plane_calls = n, plane = whole/factor;
+        assert_true(n <= plane_calls);
+        near(whole/factor, plane, 1e-3);
+    }
+    long n = 0;
+    const scaled overflowing = {1e308, &n};
+    assert_true(isinf(cubature(scaled_wave, &overflowing, low, high, 1e-9, 0)) && n <= plane_calls);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(hemispheres_and_spheres_have_their_area),
         cmocka_unit_test(lobes_of_any_width_are_found),
+        cmocka_unit_test(huge_functions_take_no_more_work),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
