@@ -93,7 +93,7 @@ static int read_merl(const char *path, point_list *list)
     for (int i = 0; i < HALVES*DIFFERENCES*AZIMUTHS && !status; i++) {
         const int azimuth = i%AZIMUTHS, difference = i/AZIMUTHS%DIFFERENCES, half = i/AZIMUTHS/DIFFERENCES;
         const double h = ((double)half + 0.5)/HALVES, d = ((double)difference + 0.5)/DIFFERENCES;
-        fit_point p;
+        fit_point p = {.wi = {0}};
         find_directions(h*h*PI/2, d*PI/2, ((double)azimuth + 0.5)*PI/AZIMUTHS, p.wi, p.wo);
         if (p.wi[2] < LEAST_COSINE || p.wo[2] < LEAST_COSINE) continue;
         merl_eval(&m, p.wi, p.wo, p.value);

@@ -128,7 +128,7 @@ static void walk_light_tree(const light_tree *tree, size_t n, light_receivers to
     for (size_t first = 0; first < n; first += BLOCK) {
         const size_t some = n - first < BLOCK ? n - first : BLOCK;
         size_t open[BLOCK], n_open = 0;
-        uint32_t next[BLOCK];
+        uint32_t next[BLOCK] = {0};
         double product[BLOCK] = {0};
         light_top top;
         draw_top(tree, receivers_from(to, first), distant + first, u + first, &top);
