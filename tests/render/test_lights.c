@@ -99,8 +99,8 @@ static void alias_tables_draw_their_probabilities_and_leave_a_uniform_rest(void 
  *   - a ray to the drawn target meets the emitter with the same density and radiance that the draw reports. */
 enum { ROWS = 24, COLUMNS = 48, FINE = SAMPLE_DIVISOR > 1 ? 16 : 32 };
 
-/* The error of the grid's integral, of a cell that an outline crosses and of the whole of a light as small as a cell: it
- * falls with the power 3/2 of FINE. */
+/* The error of the grid's integral, of a cell that an outline crosses and of the whole of a light as small as a cell:
+ * it falls with the power 3/2 of FINE. */
 #define GRID_ERROR (FINE == 32 ? 0.01 : 0.03)
 
 static int cell_of(real3 w)
