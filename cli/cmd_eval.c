@@ -79,15 +79,9 @@ static int eval_file(const settings *s, block *b, const facet_bsdf *bsdf, const 
         for (b->n = 0; b->n < BATCH && !status;) {
             status = csv_read(&reader, &row, &is_end);
             if (status || is_end) break;
-            for (int k = 0; k < N_COLUMNS; k++) {
-                b->directions[b->n][k] = row.values[k];
-                snprintf(b->texts[b->n][k], CSV_FIELD_CAP, "%s", row.texts[k]);
-            }
-            if (!make_unit(b->directions[b->n]))
-                status = csv_fail(&reader, "(wi_x,wi_y,wi_z) is not a unit vector; its length has to be 1 within 1e-3");
-            else if (!make_unit(b->directions[b->n] + 3))
-                status = csv_fail(&reader, "(wo_x,wo_y,wo_z) is not a unit vector; its length has to be 1 within 1e-3");
-            else b->n++;
+            for (int k = 0; k < N_COLUMNS; k++) snprintf(b->texts[b->n][k], CSV_FIELD_CAP, "%s", row.texts[k]);
+            status = csv_directions(&reader, &row, b->directions[b->n], b->directions[b->n] + 3);
+            b->n += !status;
         }
         if (s->is_double) print_double(b, bsdf64);
         else print_float(b, bsdf);

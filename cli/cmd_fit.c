@@ -8,6 +8,7 @@
 #include "cli/commands.h"
 #include "cli/fit_points.h"
 #include "cli/json_writer.h"
+#include "cli/progress.h"
 #include "cli/report.h"
 
 enum { MOST_MODELS = 16, SPEC_SIZE = 2048 };
@@ -112,7 +113,7 @@ static void tell_on_stderr(const candidate *c, size_t n_points)
     note(
         "%s: error %.4g, the root mean square of ln(1 + f cos) over %zu pairs of directions; %zu of %zu searches ended "
         "there",
-        model->name, c->result.error, n_points, c->result.n_least, c->result.n_starts);
+        model->name, c->result.error, n_points, c->result.n_least, (size_t)FIT_STARTS);
     for (size_t k = 0; k < model->n_parameters; k++)
         if (c->keys >> k & 1 && is_at_end(c->result.material.values[k][0], &model->parameters[k]))
             note("%s: %s ends at an end of its range", model->name, model->parameters[k].name);
@@ -129,7 +130,7 @@ static void tell_as_json(const candidate *items, size_t n, const char *path, siz
         json_put_open(&j, NULL, '{');
         json_put_text(&j, "material", items[i].spec);
         json_put_number(&j, "error", items[i].result.error);
-        json_put_integer(&j, "searches", items[i].result.n_starts);
+        json_put_integer(&j, "searches", FIT_STARTS);
         json_put_integer(&j, "searches_that_agree", items[i].result.n_least);
         json_put_close(&j, '}');
     }
@@ -143,16 +144,32 @@ static int by_error(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* Searches of all models. */
+typedef struct searches {
+    size_t n_before, n;
+    const char *model;
+} searches;
+
+/* A fit_progress. */
+static void tell_search(void *user, size_t n_done)
+{
+    const searches *all = user;
+    progress_show_step(all->n_before + n_done, all->n, all->model);
+}
+
 static int fit_all(const settings *s, const char *path, candidate *items, size_t n)
 {
     fit_points points;
     int status = fit_points_read(path, &points);
     for (size_t i = 0; i < n && !status; i++) {
         facet_error why = {0};
-        if (fit_material(&items[i].material, items[i].keys, points, &items[i].result, &why))
+        searches all = {i*FIT_STARTS, n*FIT_STARTS, facet_model_get(items[i].material.model)->name};
+        if (fit_material(&items[i].material, items[i].keys, points, s->quiet ? NULL : tell_search, &all,
+                         &items[i].result, &why))
             status = fail_with(FROM_INPUT, path, &why);
         else write_spec(&items[i].result.material, items[i].spec, SPEC_SIZE);
     }
+    if (!s->quiet) progress_end_steps(n*FIT_STARTS);
     if (!status) {
         qsort(items, n, sizeof *items, by_error);
         if (s->json) tell_as_json(items, n, path, points.n);

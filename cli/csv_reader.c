@@ -11,6 +11,7 @@
 #include <strings.h>
 #include <sys/stat.h>
 
+#include "cli/commands.h"
 #include "cli/report.h"
 
 static const size_t ABSENT = (size_t)-1;
@@ -160,4 +161,18 @@ void csv_close(csv_reader *reader)
 {
     free(reader->text);
     if (reader->stream && reader->stream != stdin) fclose(reader->stream);
+}
+
+int csv_directions(const csv_reader *reader, const csv_row *row, double wi[3], double wo[3])
+{
+    static const char *const names[] = {"wi", "wo"};
+    double *const directions[] = {wi, wo};
+    for (int i = 0; i < 2; i++) {
+        const char *name = names[i];
+        memcpy(directions[i], row->values + 3*i, 3*sizeof *wi);
+        if (!make_unit(directions[i]))
+            return csv_fail(reader, "(%s_x,%s_y,%s_z) is not a unit vector; its length has to be 1 within 1e-3", name,
+                            name, name);
+    }
+    return 0;
 }

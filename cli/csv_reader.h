@@ -40,6 +40,10 @@ int csv_open(csv_reader *reader, const char *path, const char *const *columns, s
 int csv_read(csv_reader *reader, csv_row *row, bool *is_end);
 void csv_close(csv_reader *reader);
 
+/* The directions in a row's first six columns, wi_x to wo_z, brought to unit length; an error if one is not within 1e-3
+ * of it. */
+int csv_directions(const csv_reader *reader, const csv_row *row, double wi[3], double wo[3]);
+
 /* An error at the current line, `FILE:line N: text`; returns EXIT_INPUT. */
 int csv_fail(const csv_reader *reader, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

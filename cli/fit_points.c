@@ -5,7 +5,6 @@
 #include <math.h>
 #include <stdlib.h>
 
-#include "cli/commands.h"
 #include "cli/csv_reader.h"
 #include "cli/report.h"
 #include "io/merl.h"
@@ -38,20 +37,13 @@ static fit_point *add_point(point_list *list)
 
 static int read_row(const csv_reader *reader, const csv_row *row, fit_point *p)
 {
-    for (int k = 0; k < 3; k++) {
-        p->wi[k] = row->values[k];
-        p->wo[k] = row->values[3 + k];
-    }
-    if (!make_unit(p->wi))
-        return csv_fail(reader, "(wi_x,wi_y,wi_z) is not a unit vector; its length has to be 1 within 1e-3");
-    if (!make_unit(p->wo))
-        return csv_fail(reader, "(wo_x,wo_y,wo_z) is not a unit vector; its length has to be 1 within 1e-3");
-    for (int k = 0; k < 3; k++) {
+    const int status = csv_directions(reader, row, p->wi, p->wo);
+    for (int k = 0; k < 3 && !status; k++) {
         const double f = row->values[6 + k];
         if (!(f >= 0)) return csv_fail(reader, "f_%c is %g; a BRDF is not negative", "rgb"[k], f);
         p->value[k] = f*fabs(p->wi[2]);
     }
-    return 0;
+    return status;
 }
 
 static int read_csv(const char *path, point_list *list)

@@ -100,3 +100,18 @@ void progress_end(progress *p)
     if (p->is_drawn) fputc('\n', stderr);
     p->is_drawn = false;
 }
+
+void progress_show_step(size_t n_done, size_t n, const char *what)
+{
+    enum { WIDTH = 24 };
+    if (n < 2 || !isatty(STDERR_FILENO)) return;
+    const int full = (int)(WIDTH*n_done/n);
+    fprintf(stderr, "\r[%.*s%*s] %zu/%zu %-60.60s", full, "########################", WIDTH - full, "", n_done + 1, n,
+            what);
+    fflush(stderr);
+}
+
+void progress_end_steps(size_t n)
+{
+    if (n > 1 && isatty(STDERR_FILENO)) fprintf(stderr, "\r%100s\r", "");
+}

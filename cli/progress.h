@@ -23,6 +23,11 @@ void progress_show(progress *p, const render_progress *state);
 /* Ends the bar's line, if there is one, so that messages start on their own. */
 void progress_end(progress *p);
 
+/* Of work in steps: a line on a terminal's stderr, which the next one replaces; n_done of n are behind it, and `what` is
+ * under way.  Nothing elsewhere, or for a single step. */
+void progress_show_step(size_t n_done, size_t n, const char *what);
+void progress_end_steps(size_t n);
+
 /* A time as people write it: "0.8 s", "42 s", "3:05", "2:03:05". */
 void format_duration(double seconds, char *text, size_t size);
 

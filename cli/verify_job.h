@@ -57,7 +57,6 @@ typedef struct verdicts {
     const verify_options *o;
     json_writer json;
     size_t n_cases, n_done, n_failed; /* failed: checks */
-    bool is_terminal;
 } verdicts;
 
 /* What a case is called: the material, or the plugin and its parameters. */

@@ -3,8 +3,8 @@
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
-#include <unistd.h>
 
+#include "cli/progress.h"
 #include "cli/report.h"
 #include "cli/verify_job.h"
 
@@ -68,25 +68,9 @@ bool verify_is_chosen(const verify_options *o, verify_check check)
     return !o->check || strcmp(o->check, verify_names[check]) == 0;
 }
 
-/* A line on a terminal's stderr, which the next one replaces. */
-static void show_progress(const verdicts *v, const char *text)
-{
-    enum { WIDTH = 24 };
-    if (!v->is_terminal || v->n_cases < 2) return;
-    const int full = (int)(WIDTH*v->n_done/v->n_cases);
-    fprintf(stderr, "\r[%.*s%*s] %zu/%zu %-60.60s", full, "########################", WIDTH - full, "", v->n_done + 1,
-            v->n_cases, text);
-    fflush(stderr);
-}
-
-static void end_progress(const verdicts *v)
-{
-    if (v->is_terminal && v->n_cases > 1) fprintf(stderr, "\r%100s\r", "");
-}
-
 verdicts verdicts_begin(const verify_options *o, size_t n_cases)
 {
-    verdicts v = {.o = o, .n_cases = n_cases, .is_terminal = isatty(STDERR_FILENO)};
+    verdicts v = {.o = o, .n_cases = n_cases};
     if (o->json) {
         v.json = json_put_start(stdout);
         json_put_open(&v.json, NULL, '{');
@@ -137,7 +121,7 @@ int verdicts_add(verdicts *v, const verify_case *c, const verify_subject *subjec
     const int n_tests = verify_chi_square_tests(subject)*(int)v->n_cases;
     const verify_settings how = {o->seed, (int)o->samples, n_tests > 0 ? n_tests : 1};
     verify_result results[VERIFY_CHECKS];
-    show_progress(v, c->text);
+    progress_show_step(v->n_done, v->n_cases, c->text);
     for (int k = 0; k < VERIFY_CHECKS; k++) {
         if (!verify_is_chosen(o, (verify_check)k)) continue;
         if (watch) watch->check = verify_names[k];
@@ -147,7 +131,7 @@ int verdicts_add(verdicts *v, const verify_case *c, const verify_subject *subjec
     if (watch) watch->check = "the pictures";
     const int status = o->pictures ? pictures_draw(v, c, subject, &how) : 0;
     if (watch) watch->check = NULL;
-    end_progress(v);
+    progress_end_steps(v->n_cases);
     if (status) return status;
     if (o->json) write_results(v, c, results);
     else print_results(v, c, results);

@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "verify/least_squares.h"
 
-enum { STARTS = 16, MOST_UNKNOWNS = 3*FACET_MAX_PARAMETERS };
+enum { MOST_UNKNOWNS = 3*FACET_MAX_PARAMETERS };
 
 /* Ranges of more than this ratio are searched by their logarithms: roughness, gamma, exponents. */
 #define WIDE 100
@@ -140,19 +140,20 @@ static size_t stride_for(size_t n, size_t most)
     return (n - 1)/most + 1;
 }
 
-static double search(problem *p, double *work, double *best, fit_result *result)
+static double search(problem *p, fit_progress *progress, void *user, double *work, double *best, size_t *n_least)
 {
-    double sums[STARTS], least = INFINITY;
-    for (size_t i = 0; i < STARTS; i++) {
+    double sums[FIT_STARTS], least = INFINITY;
+    for (size_t i = 0; i < FIT_STARTS; i++) {
         double x[MOST_UNKNOWNS];
+        if (progress) progress(user, i);
         choose_start(p, i, x);
         sums[i] = least_squares_descend(&(least_squares){p->n, 3*n_taken(p), compare, p, work}, x);
         if (!(sums[i] < least)) continue;
         least = sums[i];
         memcpy(best, x, sizeof x);
     }
-    result->n_starts = STARTS;
-    for (size_t i = 0; i < STARTS; i++) result->n_least += sqrt(sums[i]) <= (1 + SAME)*sqrt(least) + 1e-9;
+    *n_least = 0;
+    for (size_t i = 0; i < FIT_STARTS; i++) *n_least += sqrt(sums[i]) <= (1 + SAME)*sqrt(least) + 1e-9;
     return least;
 }
 
@@ -187,8 +188,8 @@ static void drop_idle_keys(problem *p, fit_keys keys, double least, double *best
     set_unknowns(p, best, m);
 }
 
-facet_status fit_material(const facet_material *m, fit_keys keys, fit_points points, fit_result *result,
-                          facet_error *why)
+facet_status fit_material(const facet_material *m, fit_keys keys, fit_points points, fit_progress *progress, void *user,
+                          fit_result *result, facet_error *why)
 {
     problem p = {.material = *m, .n_points = points.n, .points = points.items};
     *result = (fit_result){.material = *m};
@@ -201,7 +202,7 @@ facet_status fit_material(const facet_material *m, fit_keys keys, fit_points poi
     if (!work) return facet_error_set(why, FACET_NO_MEMORY, "", "no memory for %zu points", points.n);
     facet_status status = FACET_OK;
     p.stride = stride_for(points.n, FIT_FEW);
-    if (search(&p, work, best, result) < INFINITY) {
+    if (search(&p, progress, user, work, best, &result->n_least) < INFINITY) {
         p.stride = stride_for(points.n, FIT_MANY);
         least_squares_descend(&(least_squares){p.n, 3*n_taken(&p), compare, &p, work}, best);
         p.stride = 1;

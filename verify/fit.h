@@ -34,17 +34,20 @@ fit_keys fit_usual_keys(facet_material *m);
 typedef struct fit_result {
     facet_material material;
     double error;   /* the distance, over all points */
-    size_t n_least; /* searches from different starts that ended at this error */
-    size_t n_starts;
+    size_t n_least; /* of the FIT_STARTS searches, those that ended at this error */
 } fit_result;
 
 /* Finds the keys of *m, whose other parameters stay.  Many searches from different starts look at no more than FIT_FEW
  * points, evenly taken; the best goes on with FIT_MANY.  A key that makes no difference has its default and is not
  * given.  The same points give the same result.  FACET_BAD_VALUE: fewer values than unknowns, or nothing to be found;
  * FACET_NO_MEMORY. */
-enum { FIT_FEW = 600, FIT_MANY = 20000 };
-facet_status fit_material(const facet_material *m, fit_keys keys, fit_points points, fit_result *result,
-                          facet_error *why);
+enum { FIT_FEW = 600, FIT_MANY = 20000, FIT_STARTS = 16 };
+
+/* Called before each of the FIT_STARTS searches; may be NULL. */
+typedef void fit_progress(void *user, size_t n_done);
+
+facet_status fit_material(const facet_material *m, fit_keys keys, fit_points points, fit_progress *progress, void *user,
+                          fit_result *result, facet_error *why);
 
 #ifdef __cplusplus
 }

@@ -111,7 +111,7 @@ static void plugins_that_fail_end_with_a_line(void **state)
     expect(VERIFY("--plugin", "text.so"), 3, "", "is no shared library");
 }
 
-/* As bench and people write them: where quadrature has an absolute tolerance only, these take hours. */
+/* Where quadrature has an absolute tolerance only, these take hours. */
 static void huge_values_are_measured_or_overflow(void **state)
 {
     (void)state;
