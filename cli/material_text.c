@@ -28,8 +28,8 @@ static const char *said_of_foreign(const char *text)
 {
     static const char *const kinds[][2] = {
         {"merl",
-         "`merl file=FILE.binary`, a measurement, is taken by `facet plot` and `facet verify` alone; `facet fit FILE.binary` "
-         "finds a material for it"},
+         "`merl file=FILE.binary`, a measurement, is taken by `facet plot` and `facet verify` alone; `facet fit "
+         "FILE.binary` finds a material for it"},
         {"plugin", "`plugin file=FILE.so` is taken by `facet plot` alone; `facet verify` has --plugin FILE.so"}};
     const char *word = text + strspn(text, " \t\r\n");
     const size_t length = strcspn(word, " \t\r\n");

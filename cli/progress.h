@@ -23,8 +23,8 @@ void progress_show(progress *p, const render_progress *state);
 /* Ends the bar's line, if there is one, so that messages start on their own. */
 void progress_end(progress *p);
 
-/* Of work in steps: a line on a terminal's stderr, which the next one replaces; n_done of n are behind it, and `what` is
- * under way.  Nothing elsewhere, or for a single step. */
+/* Of work in steps: a line on a terminal's stderr, which the next one replaces; n_done of n are behind it, and `what`
+ * is under way.  Nothing elsewhere, or for a single step. */
 void progress_show_step(size_t n_done, size_t n, const char *what);
 void progress_end_steps(size_t n);
 

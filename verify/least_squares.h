@@ -1,7 +1,7 @@
 /* least_squares.h: the least sum of squares of functions of a few unknowns between 0 and 1.
  *
- * Of our own, since C libraries either know no bounds (MINPACK, GSL), at which many materials lie (kd = 0, ks = 1), or do
- * not use that it is squares that are summed (NLopt).
+ * Of our own, since C libraries either know no bounds (MINPACK, GSL), at which many materials lie (kd = 0, ks = 1), or
+ * do not use that it is squares that are summed (NLopt).
  * SPDX-License-Identifier: MIT */
 #pragma once
 
