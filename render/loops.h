@@ -19,7 +19,10 @@
 extern "C" {
 #endif
 
-struct vertex_list; /* stages.h */
+/* stages.h */
+struct vertex_list;
+struct gradient_list;
+struct vector_array;
 
 typedef struct render_loops {
     const char *name;
@@ -56,6 +59,20 @@ typedef struct render_loops {
     void (*connect)(struct vertex_list *v, bool is_mis);
     /* Rays along the sampled directions wi, and in f what the paths carry then. */
     void (*scatter)(struct vertex_list *v, bool has_roulette);
+    /* wo of second vertices to the neighbours' first ones. */
+    void (*look_back)(struct vertex_list *second, const struct vertex_list *first, struct gradient_list *g);
+    /* How much brighter the light's part looks from there, from f for that wo, as a share of the path's own. */
+    void (*contrast)(struct vertex_list *second, const struct vector_array *own_f, struct vector_array *ratio);
+    /* From first vertices to the second ones of the neighbours that are named in `from`, as to lights. */
+    void (*reach)(struct vertex_list *first, struct gradient_list *g);
+    /* Into f what the neighbours' light is worth there, by f and pdf towards those that are to be kept; ... */
+    void (*pass_on)(struct vertex_list *first, struct gradient_list *g);
+    /* ... given to them and taken from those that have it. */
+    void (*give)(struct gradient_list *g, size_t n, ptrdiff_t step);
+    /* Weights of neighbours. */
+    void (*liken)(struct gradient_list *g, size_t width, size_t height);
+    /* The light that fits best. */
+    void (*fit)(struct gradient_list *g, size_t width, size_t height, struct vector_array *light);
 } render_loops;
 
 /* Those of the instruction set that libfacet's batches use. */

@@ -172,6 +172,7 @@ static void points(const sampler *given, size_t n, const uint32_t *pixel, const 
 #include "render/light_loops_text.h"
 #include "render/stage_loops_text.h"
 
+#include "render/gradient_loops_text.h"
 #include "render/surface_loops_text.h"
 
 const render_loops RENDER_LOOPS = {.name = RENDER_LOOPS_NAME,
@@ -188,4 +189,11 @@ const render_loops RENDER_LOOPS = {.name = RENDER_LOOPS_NAME,
                                    .receive = receive,
                                    .aim = aim,
                                    .connect = connect,
-                                   .scatter = scatter};
+                                   .scatter = scatter,
+                                   .look_back = look_back,
+                                   .contrast = contrast,
+                                   .reach = reach,
+                                   .pass_on = pass_on,
+                                   .give = give,
+                                   .liken = liken,
+                                   .fit = fit};

@@ -69,9 +69,14 @@ void path_batch_run(path_batch *batch, const path_context *c, tile where, uint32
             render_loops_chosen()->points(&c->sampler, list->n, list->pixel, list->index, group + GROUP_CHANCE, u);
         }
         stage_trace(batch, c, list, event == 0, counts);
+        batch->vertices = &batch->vertex_lists[event < 2 ? event : 2];
         stage_meet(batch, c, list, event >= c->settings->depth);
+        if (c->has_gradients && event == 1) gradient_of_second_vertices(batch);
         stage_connect(batch, c, group, counts);
+        if (c->has_gradients && event == 1) gradient_of_lights(batch);
         stage_scatter(batch, c, list, event + 1, group, next);
+        if (c->has_gradients && event == 0) gradient_start(batch);
     }
+    if (c->has_gradients) gradient_solve(batch, c, where, counts);
     deposit(batch, c, where, sample_index, to, counts);
 }

@@ -29,6 +29,7 @@ typedef struct path_context {
     sampler sampler;
     bool keeps_features;             /* the film does */
     bool has_mixed_surfaces;         /* some material is part smooth interface, part opaque */
+    bool has_gradients;              /* neighbouring pixels share light */
     const render_settings *settings; /* crop filled in */
 } path_context;
 

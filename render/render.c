@@ -14,7 +14,7 @@
 
 void render_settings_defaults(render_settings *settings)
 {
-    *settings = (render_settings){.width = 960, .height = 540, .spp = 64, .depth = 8};
+    *settings = (render_settings){.width = 960, .height = 540, .spp = 64, .depth = 8, .has_gradients = true};
 }
 
 static double read_clock(clockid_t clock)
@@ -87,6 +87,14 @@ static void job_destroy(job *j)
     *j = (job){0};
 }
 
+/* Whether what lies between two points is known once it has been asked. */
+static bool is_opaque(const scene *s)
+{
+    for (size_t i = 0; i < s->n_materials; i++)
+        if (s->materials[i].alpha == ALPHA_BLEND) return false;
+    return true;
+}
+
 /* Acceleration structure, light tables, film and workspaces. */
 static facet_status job_create(const scene *s, const render_settings *r, uint32_t n_threads, render_state *state,
                                job *j, facet_error *why)
@@ -96,6 +104,7 @@ static facet_status job_create(const scene *s, const render_settings *r, uint32_
     j->context.sampler = sampler_create(r->sampler, r->seed, r->spp);
     for (size_t i = 0; i < s->n_materials; i++)
         if (s->materials[i].transmission > 0) j->context.has_mixed_surfaces = true;
+    j->context.has_gradients = r->has_gradients && r->depth >= 2 && is_opaque(s);
     light_set *lights = NULL;
     tracer *built = NULL;
     facet_status status = light_set_create(s, r->strategy == STRATEGY_MIS, &lights, why);
@@ -243,7 +252,8 @@ static uint64_t identity_of(const scene *s, const render_settings *r)
                               r->n_shards,
                               (uint64_t)r->strategy,
                               (uint64_t)r->sampler,
-                              r->keeps_features};
+                              r->keeps_features,
+                              r->has_gradients};
     uint64_t hash = 0xcbf29ce484222325; /* FNV-1a, by words */
     for (size_t i = 0; i < sizeof words/sizeof *words; i++) hash = (hash ^ words[i])*0x100000001b3;
     return hash;

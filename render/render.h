@@ -66,6 +66,8 @@ typedef struct render_settings {
     uint32_t seed;
     enum strategy strategy;
     sampler_kind sampler;
+    bool has_gradients; /* neighbouring pixels share light (stage_gradients.c): less noise, the same mean; not with
+                           half-transparent materials */
     uint32_t shard, n_shards; /* render the samples of the shard-th of n_shards, from 1; n_shards == 0: all of them */
     const char *isa;     /* Embree's instruction set: "sse2", "sse4.2", "avx", "avx2", "avx512"; NULL: avx2 where there
                         is one, else the best, or none at all for a small scene ("any") */

@@ -47,8 +47,7 @@ static void choose_lights(const path_context *c, vertex_list *v, uint32_t group)
     loops->aim(v, c->settings->strategy == STRATEGY_IMPLICIT);
 }
 
-/* f cos and pdf at the directions wi. */
-static void evaluate(vertex_list *v)
+void vertices_evaluate(vertex_list *v)
 {
     for (uint32_t first = 0, n; first < v->n; first += n) {
         n = batch_from(v, first);
@@ -67,8 +66,7 @@ static void evaluate(vertex_list *v)
     }
 }
 
-/* The rays that are worth tracing. */
-static void collect_rays(const vertex_list *v, shadow_list *s)
+void shadow_list_collect(shadow_list *s, const vertex_list *v)
 {
     uint32_t n = 0;
     for (uint32_t k = 0; k < v->n; k++) {
@@ -83,13 +81,13 @@ static void collect_rays(const vertex_list *v, shadow_list *s)
  * EvalScattering contains the only cosine at P, and the term is weighted. */
 void stage_connect(path_batch *batch, const path_context *c, uint32_t group, path_counts *counts)
 {
-    vertex_list *v = &batch->vertices;
+    vertex_list *v = batch->vertices;
     shadow_list *s = &batch->shadows;
     if (light_set_is_empty(c->lights)) return;
     choose_lights(c, v, group);
-    evaluate(v);
+    vertices_evaluate(v);
     render_loops_chosen()->connect(v, c->settings->strategy == STRATEGY_MIS);
-    collect_rays(v, s);
+    shadow_list_collect(s, v);
     counts->n_shadow_rays += s->n;
     tracer_blocked(c->tracer, s->n, rays_of(&s->ray), s->is_blocked);
     for (uint32_t j = 0; j < s->n; j++) {

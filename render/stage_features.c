@@ -48,12 +48,12 @@ void feature_of_surface(path_batch *batch, const path_list *list, uint32_t i, co
 
 void feature_of_vertex(path_batch *batch, const path_list *list, uint32_t k)
 {
-    meet(batch, list, batch->vertices.path[k], get3(&batch->vertices.up, k));
+    meet(batch, list, batch->vertices->path[k], get3(&batch->vertices->up, k));
 }
 
 void feature_of_scattering(path_batch *batch, const path_list *list, uint32_t k)
 {
-    const vertex_list *v = &batch->vertices;
+    const vertex_list *v = batch->vertices;
     const uint32_t i = v->path[k];
     const bool is_found = v->pdf[k] > 0;
     if (batch->features.is_known[list->slot[i]] || (is_found && v->lobe[k] & FACET_DELTA)) return;

@@ -154,7 +154,7 @@ static void expect(const path_batch *batch, const path_context *c, uint32_t k, u
 /* Path i goes on from a vertex. */
 static uint32_t add_vertex(path_batch *batch, const path_list *list, uint32_t i)
 {
-    vertex_list *v = &batch->vertices;
+    vertex_list *v = batch->vertices;
     const uint32_t k = v->n++;
     v->path[k] = i;
     v->slot[k] = list->slot[i];
@@ -169,7 +169,7 @@ static uint32_t add_vertex(path_batch *batch, const path_list *list, uint32_t i)
 /* A vertex of a surface that loops find, a block of them at once; false if the hit is of another kind. */
 static bool add_plain(path_batch *batch, const path_context *c, const path_list *list, uint32_t i, const hit *h)
 {
-    vertex_list *v = &batch->vertices;
+    vertex_list *v = batch->vertices;
     const plain_surface at = surface_load_plain(c->surfaces, h, &batch->plain, v->n%LOOP_LANES);
     if (!at.bsdf) return false;
     const uint32_t k = add_vertex(batch, list, i);
@@ -183,7 +183,7 @@ static bool add_plain(path_batch *batch, const path_context *c, const path_list 
 static void add_surface(path_batch *batch, const path_context *c, const path_list *list, uint32_t i, const hit *h,
                         bool is_last)
 {
-    vertex_list *v = &batch->vertices;
+    vertex_list *v = batch->vertices;
     const ray r = get_ray(&list->ray, i);
     const real3 wo = neg3(vector_of(r.direction));
     surface at;
@@ -209,7 +209,7 @@ static void add_surface(path_batch *batch, const path_context *c, const path_lis
 /* The surfaces that paths have met: their emission is gathered, and those that scatter become vertices. */
 void stage_meet(path_batch *batch, const path_context *c, const path_list *list, bool is_last)
 {
-    vertex_list *v = &batch->vertices;
+    vertex_list *v = batch->vertices;
     const render_loops *loops = render_loops_chosen();
     const uint32_t n_hits = sort_by_material(batch, c, list);
     gather_skies(batch, c, list);

@@ -48,7 +48,7 @@ static void copy_receiver(receiver_array *to, uint32_t i, const receiver_array *
 void stage_scatter(path_batch *batch, const path_context *c, const path_list *list, uint32_t n_events, uint32_t group,
                    path_list *next)
 {
-    vertex_list *v = &batch->vertices;
+    vertex_list *v = batch->vertices;
     sample(c, v, group);
     if (c->keeps_features)
         for (uint32_t k = 0; k < v->n; k++) feature_of_scattering(batch, list, k);

@@ -117,6 +117,46 @@ typedef struct feature_list {
     bool is_known[ROOM]; /* albedo and normal are, and stay */
 } feature_list;
 
+/* The weight of a pixel's own light beside differences of light, and the least of these (docs/performance.md). */
+#define LIGHT_WEIGHT 0.04f
+#define LEAST_ALIKENESS 1e-3f
+
+/* Light that looks so many times brighter or darker from the neighbour is not shared, nor what could overflow. */
+#define MOST_CONTRAST 4.0f
+#define MOST_PASSED 1e30f
+
+/* Steps towards the fit; they are the best ones for eigenvalues of the equations between these two. */
+enum { GRADIENT_STEPS = 12 };
+#define LEAST_EIGENVALUE 0.1f
+#define MOST_EIGENVALUE 2.0f
+
+/* What neighbouring pixels tell each other (stage_gradients.c), by slot if nothing else is said.  NO_SLOT is that of no
+ * pixel; the lists of numbers for the equations have so much room before and after them that every pixel has four
+ * neighbours. */
+enum { NO_SLOT = PATHS, NO_VERTEX = PATHS, MARGIN = TILE_SIZE, FRAMED = PATHS + 2*MARGIN };
+typedef struct gradient_list {
+    LINE_ALIGNED vector_array apart; /* radiance that is not shared */
+    vector_array near;               /* that of lights at the second vertex; the rest is path_batch.radiance */
+    uint32_t first[ROOM];            /* the first vertex, or NO_VERTEX */
+    uint32_t beside[ROOM];           /* the slot of a neighbour, or NO_SLOT */
+    float up[3][FRAMED];             /* its normal, 0 where there is none */
+    vector_array throughput;         /* from the first vertex on */
+    float pdf[ROOM];                 /* of the direction from there [1/sr]; 0: not of a lobe */
+    vector_array position, target, normal,
+        shading;            /* of the second vertex; target: just off it; normals on wo's side */
+    float density[ROOM];    /* of finding it from the first [1/m^2]; 0: nothing is shared */
+    vector_array own, seen; /* the light that is shared, and what the neighbour would see of it */
+    /* By second vertices: directions to the light and onwards, f cos for them and the path's own wo */
+    vector_array to_light, onward, near_f, far_f, near_ratio;
+    uint32_t neighbour[ROOM]; /* first vertex of the neighbour, or NO_VERTEX */
+    /* By the neighbour's first vertices */
+    uint32_t from[ROOM];
+    float distance2[ROOM], cosine[ROOM]; /* at the second vertex */
+    /* The equations */
+    LINE_ALIGNED float right[FRAMED], below[FRAMED]; /* weights of a pixel and its neighbour */
+    float passed[3][FRAMED], given[3][FRAMED], step[FRAMED], found[FRAMED], scale[FRAMED];
+} gradient_list;
+
 struct path_batch {
     path_list lists[2];
     vector_array radiance; /* gathered so far, by slot */
@@ -125,10 +165,12 @@ struct path_batch {
     uint32_t chance[3][ROOM];
     uint32_t material[ROOM], order[ROOM]; /* of what the paths met; the paths by it */
     sky_list skies;
-    vertex_list vertices;
+    vertex_list vertex_lists[3]; /* of the first event, the second, and later ones */
     shadow_list shadows;
+    gradient_list gradients;
     plain_block plain; /* vertices whose surfaces are still to be found */
     feature_list features;
+    vertex_list *vertices;   /* those of the present event */
     uint32_t *n_of_material; /* counts, then places, of one more than the scene's materials */
 };
 
@@ -233,6 +275,27 @@ void stage_connect(path_batch *batch, const path_context *c, uint32_t group, pat
 /* Extends paths by scattered rays, into the next list. */
 void stage_scatter(path_batch *batch, const path_context *c, const path_list *list, uint32_t n_events, uint32_t group,
                    path_list *next);
+
+/* f cos and pdf at the directions wi of the vertices whose light.pdf is positive, and of others at will. */
+void vertices_evaluate(vertex_list *v);
+
+/* The vertices' rays that are to be traced. */
+void shadow_list_collect(shadow_list *s, const vertex_list *v);
+
+/* ---- Gradients: light that neighbouring pixels share by their second vertices, if context.has_gradients says so.
+ * Between stage_generate and the film: ---- */
+
+/* The first vertices have been given directions. */
+void gradient_start(path_batch *batch);
+
+/* The second vertices have been found, and what paths have gathered so far is set apart. */
+void gradient_of_second_vertices(path_batch *batch);
+
+/* They have been connected to lights. */
+void gradient_of_lights(path_batch *batch);
+
+/* All paths have ended: the radiance becomes that which fits the light and its gradients best. */
+void gradient_solve(path_batch *batch, const path_context *c, tile where, path_counts *counts);
 
 /* ---- Features: albedo and normal of the first surface that neither mirrors nor lets through all light unscattered, as
  * seen in and through those that do; the distance of the first surface of all.  Only for films that keep them. ---- */

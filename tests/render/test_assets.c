@@ -23,6 +23,31 @@ typedef struct tally {
     int n_rendered, n_refused, n_dark;
 } tally;
 
+/* The sum of a small picture's values, which must be finite and, of pixels that share no light, not negative. */
+static double render_small(const char *path, const scene *s, bool has_gradients)
+{
+    render_settings r;
+    render_settings_defaults(&r);
+    r.width = 32;
+    r.height = 24;
+    r.spp = 2;
+    r.n_threads = 2;
+    r.has_gradients = has_gradients;
+    render_result result = {0};
+    facet_error why = {0};
+    if (render(s, &r, &result, &why)) fail_msg("%s: %s: %s", path, why.place, why.text);
+    double sum = 0;
+    for (size_t i = 0; i < 3*r.width*r.height; i++) {
+        const float value = ((const float *)result.picture.pixels)[i];
+        if (!((has_gradients || value >= 0) && isfinite(value)))
+            fail_msg("%s: pixel %zu is %g", path, i/3, (double)value);
+        sum += (double)value;
+    }
+    if (result.n_bad) fail_msg("%s: %llu bad samples", path, (unsigned long long)result.n_bad);
+    render_result_destroy(&result);
+    return sum;
+}
+
 static void render_file(const char *path, tally *t)
 {
     scene *s = NULL;
@@ -37,24 +62,10 @@ static void render_file(const char *path, tally *t)
     }
     if (s->n_cameras == 0) assert_int_equal(scene_add_framing_camera(s, NULL), FACET_OK);
     for (int k = 0; k < 3; k++) s->environment.scale[k] = 1;
-    render_settings r;
-    render_settings_defaults(&r);
-    r.width = 32;
-    r.height = 24;
-    r.spp = 2;
-    r.n_threads = 2;
-    render_result result = {0};
-    if (render(s, &r, &result, &why)) fail_msg("%s: %s: %s", path, why.place, why.text);
-    double sum = 0;
-    for (size_t i = 0; i < 3*r.width*r.height; i++) {
-        const float value = ((const float *)result.picture.pixels)[i];
-        if (!(value >= 0 && isfinite(value))) fail_msg("%s: pixel %zu is %g", path, i/3, (double)value);
-        sum += (double)value;
-    }
-    if (result.n_bad) fail_msg("%s: %llu bad samples", path, (unsigned long long)result.n_bad);
-    t->n_dark += !(sum > 0);
+    const double light = render_small(path, s, false);
+    render_small(path, s, true);
+    t->n_dark += !(light > 0);
     t->n_rendered++;
-    render_result_destroy(&result);
     scene_destroy(s);
 }
 

@@ -1,0 +1,169 @@
+/* gradient_loops_text.h: the loops over neighbouring pixels (stage_gradients.c), a part of loops_text.h.
+ * SPDX-License-Identifier: MIT */
+
+/* The second vertices as lights of radiance 1: no more than aim and connect ask of one. */
+static void reach(vertex_list *v, gradient_list *g)
+{
+    for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
+        {
+            const size_t k = first + i, j = g->from[k];
+            const real3 d = sub3(lane3(&g->position, j), lane3(&v->position, k));
+            const float d2 = dot3(d, d);
+            const real3 direction = scale3(1/ksqrt(kmax(d2, REAL_MIN)), d), wo = neg3(direction);
+            const real3 normal = lane3(&g->normal, j);
+            const float cos = dot3(normal, wo);
+            const float lack = least_mirror_cosine(cos) - mirror_cosine(lane3(&g->shading, j), normal, wo);
+            const int is_shared = (g->density[j] > 0) & (max_of3(lane3(&g->own, j)) > 0);
+            v->light.pdf[k] = keep_if(is_shared & (cos > 0) & (lack <= 0), 1);
+            v->light.direction.x[k] = direction.x;
+            v->light.direction.y[k] = direction.y;
+            v->light.direction.z[k] = direction.z;
+            v->light.target.x[k] = g->target.x[j];
+            v->light.target.y[k] = g->target.y[j];
+            v->light.target.z[k] = g->target.z[j];
+            v->light.radiance.x[k] = v->light.radiance.y[k] = v->light.radiance.z[k] = 1;
+            v->light.is_infinite[k] = v->light.is_delta[k] = 0;
+            g->distance2[k] = d2;
+            g->cosine[k] = cos;
+        }
+}
+
+/* One channel: (own a_q + seen f/throughput)/(a_p + a_q). */
+static inline float passed_on(float own, float seen, float throughput, float f, float density, float other)
+{
+    const float m = (own*other + seen*(f/throughput))/(density + other);
+    return keep_if((f > 0) & (throughput > 0) & (m < MOST_PASSED), m); /* nor what is not a number */
+}
+
+static void pass_on(vertex_list *v, gradient_list *g)
+{
+    const vector_array *own = &g->own, *seen = &g->seen, *throughput = &g->throughput;
+    for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
+        {
+            const size_t k = first + i, j = g->from[k];
+            const float cos = keep_if(v->keeps[k] != 0, g->cosine[k]), other = v->pdf[k]*cos;
+            const float density = g->density[j]*g->distance2[k];
+            const real3 f = scale3(cos, lane3(&v->f, k));
+            v->f.x[k] = passed_on(own->x[j], seen->x[j], throughput->x[j], f.x, density, other);
+            v->f.y[k] = passed_on(own->y[j], seen->y[j], throughput->y[j], f.y, density, other);
+            v->f.z[k] = passed_on(own->z[j], seen->z[j], throughput->z[j], f.z, density, other);
+        }
+}
+
+static void look_back(vertex_list *v, const vertex_list *neighbours, gradient_list *g)
+{
+    for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
+        {
+            const size_t k = first + i, j = g->neighbour[k];
+            const real3 d = sub3(lane3(&neighbours->position, j), lane3(&v->position, k));
+            const real3 wo = lane_to_local(v, k, scale3(1/ksqrt(kmax(dot3(d, d), REAL_MIN)), d));
+            v->wo.x[k] = wo.x;
+            v->wo.y[k] = wo.y;
+            v->wo.z[k] = wo.z;
+        }
+}
+
+/* 0 beyond MOST_CONTRAST either way. */
+static inline float contrast_of(float f, float own)
+{
+    const float ratio = f/own;
+    return keep_if((ratio <= MOST_CONTRAST) & (ratio >= 1/MOST_CONTRAST), ratio);
+}
+
+static void contrast(vertex_list *v, const vector_array *own_f, vector_array *ratio)
+{
+    for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
+        {
+            const size_t k = first + i;
+            ratio->x[k] = contrast_of(v->f.x[k], own_f->x[k]);
+            ratio->y[k] = contrast_of(v->f.y[k], own_f->y[k]);
+            ratio->z[k] = contrast_of(v->f.z[k], own_f->z[k]);
+        }
+}
+
+/* Of n pixels: what each is passed by the one a step before, less what it passes on to the next, both weighted. */
+static void give(gradient_list *g, size_t n, ptrdiff_t step)
+{
+    const float *weights = MARGIN + (step == 1 || step == -1 ? g->right : g->below);
+    const ptrdiff_t before = step > 0 ? -step : 0, after = step > 0 ? 0 : step;
+    for (int c = 0; c < 3; c++) {
+        const float *passed = g->passed[c] + MARGIN;
+        float *given = g->given[c] + MARGIN;
+        for (size_t first = 0; first < n; first += BLOCK) EACH_LANE(i)
+            {
+                const ptrdiff_t k = (ptrdiff_t)(first + i);
+                given[k] += weights[k + before]*passed[k] - weights[k + after]*passed[k + step];
+            }
+    }
+}
+
+/* How much is made of the difference of two pixels. */
+static inline float alikeness(real3 a, real3 b)
+{
+    const float cos = kmax(dot3(a, b), 0);
+    return keep_if(dot3(a, a)*dot3(b, b) > 0.5f, cos*cos + LEAST_ALIKENESS);
+}
+
+static void liken(gradient_list *g, size_t width, size_t height)
+{
+    float *right = g->right + MARGIN, *below = g->below + MARGIN;
+    const float *x = g->up[0], *y = g->up[1], *z = g->up[2];
+    for (size_t first = 0; first < width*height; first += BLOCK) EACH_LANE(i)
+        {
+            const size_t k = first + i, r = k + 1, b = k + width;
+            const real3 up = make3(x[k], y[k], z[k]);
+            right[k] = alikeness(up, make3(x[r], y[r], z[r]));
+            below[k] = alikeness(up, make3(x[b], y[b], z[b]));
+        }
+    for (size_t row = 1; row <= height; row++) right[row*width - 1] = 0;
+}
+
+/* Y. Saad, Iterative Methods for Sparse Linear Systems, 2003, algorithm 12.1: Chebyshev acceleration, of Jacobi's
+ * iteration.  A fixed linear map of what is left, whose mean is 0: so is that of what is found, after any number of
+ * steps. */
+static void approach(gradient_list *g, size_t n, ptrdiff_t width, float *rest)
+{
+    const float *right = g->right + MARGIN, *below = g->below + MARGIN, *scale = g->scale + MARGIN;
+    float *step = g->step + MARGIN, *found = g->found + MARGIN;
+    const float middle = 0.5f*(MOST_EIGENVALUE + LEAST_EIGENVALUE),
+                half = 0.5f*(MOST_EIGENVALUE - LEAST_EIGENVALUE);
+    float ratio = half/middle, forth = 1/middle, on = 0;
+    for (size_t first = 0; first < n; first += BLOCK) EACH_LANE(i) step[first + i] = found[first + i] = 0;
+    for (int times = 0; times < GRADIENT_STEPS; times++) {
+        for (size_t first = 0; first < n; first += BLOCK) EACH_LANE(i)
+            {
+                const size_t k = first + i;
+                step[k] = on*step[k] + forth*scale[k]*rest[k];
+                found[k] += step[k];
+            }
+        for (size_t first = 0; first < n; first += BLOCK) EACH_LANE(i)
+            {
+                const ptrdiff_t k = (ptrdiff_t)(first + i);
+                const float s = step[k];
+                rest[k] -= LIGHT_WEIGHT*s + (right[k]*(s - step[k + 1]) + right[k - 1]*(s - step[k - 1])) +
+                           (below[k]*(s - step[k + width]) + below[k - width]*(s - step[k - width]));
+            }
+        const float next = 1/(2*middle/half - ratio);
+        on = next*ratio;
+        forth = 2*next/half;
+        ratio = next;
+    }
+}
+
+static void fit(gradient_list *g, size_t width, size_t height, vector_array *light)
+{
+    const size_t n = width*height;
+    const ptrdiff_t row = (ptrdiff_t)width;
+    const float *right = g->right + MARGIN, *below = g->below + MARGIN, *found = g->found + MARGIN;
+    float *scale = g->scale + MARGIN, *const channels[] = {light->x, light->y, light->z};
+    for (size_t first = 0; first < n; first += BLOCK) EACH_LANE(i)
+        {
+            const ptrdiff_t k = (ptrdiff_t)(first + i);
+            scale[k] = 1/(LIGHT_WEIGHT + (right[k] + right[k - 1]) + (below[k] + below[k - row]));
+        }
+    for (int c = 0; c < 3; c++) {
+        float *channel = channels[c];
+        approach(g, n, row, g->given[c] + MARGIN);
+        for (size_t first = 0; first < n; first += BLOCK) EACH_LANE(i) channel[first + i] += found[first + i];
+    }
+}

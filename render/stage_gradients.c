@@ -1,0 +1,223 @@
+/* stage_gradients.c: light that neighbouring pixels share.
+ *
+ * [kettunen15] M. Kettunen, M. Manzi, M. Aittala, J. Lehtinen, F. Durand and M. Zwicker, Gradient-domain path tracing,
+ * ACM TOG 34(4), 2015.  A path of pixel p is reconnected: its second vertex, with all that comes behind it, is seen
+ * from the first vertex of the neighbour q, too.  Let C be the light of p's path from there, T the weight of its first
+ * event, f that of q's surface towards the second vertex, cosine included, r how many times brighter C looks from q,
+ * cos/d^2 the share of q's sphere that an area at the second vertex fills, and a_p and a_q the densities per area with
+ * which p and q find it.  Then
+ *     D = a_p/(a_p + a_q) (C' - C),   C' = r C f cos/(d^2 T a_p)
+ * is p's part of an estimate of the difference between q's light and p's, and q's paths have the other part: each path
+ * counts once in the mean.  With m = C + D, what p passes on, the difference is C_q - C_p + m_p - m_q.
+ *
+ * The light of all pixels of a tile is then that which fits best:
+ *     sum of LIGHT_WEIGHT (x_p - C_p)^2 + sum over neighbours of w_pq (x_q - x_p - difference)^2,
+ * w from the normals of the first vertices.  Given these, all estimates have the mean that they should, and the fit is
+ * linear in them, so that x has it, too: nothing is blurred.
+ *
+ * A path is shared if its first vertex sent it by a lobe to a surface that reflects by lobes, and if r is no farther
+ * from 1 than MOST_CONTRAST, which q's paths see in the same way.  Others have m = 0: they add C_q - C_p to the
+ * difference, which asks for nothing.
+ * SPDX-License-Identifier: MIT */
+#include "render/stages.h"
+
+#include <math.h>
+#include <string.h>
+
+/* What has been gathered so far is not shared. */
+static void set_apart(path_batch *batch)
+{
+    vector_array *apart = &batch->gradients.apart;
+    for (uint32_t i = 0; i < PATHS; i++) {
+        set3(apart, i, add3(get3(apart, i), get3(&batch->radiance, i)));
+        set3(&batch->radiance, i, splat3(0));
+    }
+}
+
+void gradient_start(path_batch *batch)
+{
+    gradient_list *g = &batch->gradients;
+    const vertex_list *v = &batch->vertex_lists[0];
+    memset(&g->apart, 0, sizeof g->apart);
+    memset(&g->near, 0, sizeof g->near);
+    memset(g->up, 0, sizeof g->up);
+    memset(g->density, 0, sizeof g->density);
+    for (uint32_t i = 0; i < ROOM; i++) g->first[i] = NO_VERTEX;
+    set_apart(batch);
+    batch->vertex_lists[1].n = 0;
+    for (uint32_t k = 0; k < v->n; k++) {
+        const uint32_t slot = v->slot[k];
+        g->first[slot] = k;
+        g->up[0][slot] = v->up.x[k];
+        g->up[1][slot] = v->up.y[k];
+        g->up[2][slot] = v->up.z[k];
+        copy3(&g->throughput, slot, &v->f, k);
+        g->pdf[slot] = v->lobe[k] & FACET_DELTA ? 0 : v->pdf[k];
+    }
+}
+
+void gradient_of_second_vertices(path_batch *batch)
+{
+    gradient_list *g = &batch->gradients;
+    const vertex_list *v = &batch->vertex_lists[1];
+    set_apart(batch);
+    for (uint32_t k = 0; k < v->n; k++) {
+        const uint32_t slot = v->slot[k];
+        if (facet_bsdf_lobes(v->bsdf[k]) & (FACET_DELTA | FACET_TRANSMISSION)) continue;
+        const real3 position = get3(&v->position, k), normal = scale3(v->facing[k] < 0 ? -1 : 1, get3(&v->normal, k));
+        const real3 d = sub3(get3(&batch->vertex_lists[0].position, g->first[slot]), position);
+        const float d2 = dot3(d, d);
+        const real3 wo = scale3(1/sqrtf(d2), d), up = get3(&v->up, k);
+        const float cos = dot3(normal, wo);
+        if (!(mirror_cosine(up, normal, wo) >= least_mirror_cosine(cos))) continue; /* bent for this wo alone */
+        set3(&g->position, slot, position);
+        set3(&g->normal, slot, normal);
+        set3(&g->shading, slot, up);
+        set3(&g->target, slot, madd3(position, v->offset[k], normal));
+        g->density[slot] = g->pdf[slot]*cos/d2;
+    }
+}
+
+void gradient_of_lights(path_batch *batch)
+{
+    gradient_list *g = &batch->gradients;
+    g->to_light = batch->vertex_lists[1].wi;
+    g->near = batch->radiance;
+    memset(&batch->radiance, 0, sizeof batch->radiance);
+}
+
+/* Whether the film can hold it. */
+static bool is_held(real3 light)
+{
+    return fabsf(light.x) <= FILM_MOST && fabsf(light.y) <= FILM_MOST && fabsf(light.z) <= FILM_MOST;
+}
+
+/* Where there is nothing to share; what the film cannot hold is left to it to count.  Returns the number of others. */
+static uint32_t drop_dark(path_batch *batch)
+{
+    gradient_list *g = &batch->gradients;
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < PATHS; i++) {
+        const real3 light = add3(get3(&g->near, i), get3(&batch->radiance, i));
+        if (!is_held(light)) {
+            set3(&g->apart, i, add3(get3(&g->apart, i), light));
+            set3(&g->near, i, splat3(0));
+            set3(&batch->radiance, i, splat3(0));
+        }
+        if (!is_held(light) || !(max_of3(light) > 0)) g->density[i] = 0;
+        n += g->density[i] > 0;
+    }
+    return n;
+}
+
+/* f cos of the second vertices for a direction of each. */
+static void evaluate_seconds(vertex_list *v, const vector_array *wi)
+{
+    v->wi = *wi;
+    vertices_evaluate(v);
+}
+
+/* f cos of what the paths have done at their second vertices. */
+static void evaluate_paths(path_batch *batch)
+{
+    gradient_list *g = &batch->gradients;
+    vertex_list *v = &batch->vertex_lists[1];
+    g->onward = v->wi;
+    for (uint32_t k = 0; k < v->n; k++) v->light.pdf[k] = g->density[v->slot[k]] > 0; /* else f is not asked for */
+    evaluate_seconds(v, &g->to_light);
+    g->near_f = v->f;
+    evaluate_seconds(v, &g->onward);
+    g->far_f = v->f;
+}
+
+/* Each slot's neighbour a step along, or NO_SLOT.  step: 1, -1, width or -width, in slots; a single column has none. */
+static void find_neighbours(gradient_list *g, uint32_t width, uint32_t height, int step)
+{
+    const int n = (int)(width*height);
+    for (int i = 0; i < n; i++) g->beside[i] = i + step >= 0 && i + step < n ? (uint32_t)(i + step) : NO_SLOT;
+    if (step != 1 && step != -1) return;
+    for (int i = step > 0 ? (int)width - 1 : 0; i < n; i += (int)width) g->beside[i] = NO_SLOT;
+}
+
+/* What neighbours see of the paths' light. */
+static void look_back(path_batch *batch)
+{
+    const render_loops *loops = render_loops_chosen();
+    gradient_list *g = &batch->gradients;
+    vertex_list *v = &batch->vertex_lists[1];
+    for (uint32_t k = 0; k < v->n; k++) g->neighbour[k] = g->first[g->beside[v->slot[k]]];
+    loops->look_back(v, &batch->vertex_lists[0], g);
+    evaluate_seconds(v, &g->to_light);
+    loops->contrast(v, &g->near_f, &g->near_ratio);
+    evaluate_seconds(v, &g->onward);
+    loops->contrast(v, &g->far_f, &v->f);
+    for (uint32_t k = 0; k < v->n; k++) {
+        const uint32_t slot = v->slot[k];
+        if (!(g->density[slot] > 0)) continue;
+        const real3 near = get3(&g->near, slot), far = get3(&batch->radiance, slot);
+        const real3 near_ratio = get3(&g->near_ratio, k), far_ratio = get3(&v->f, k);
+        set3(&g->seen, slot, add3(mul3(near_ratio, near), mul3(far_ratio, far)));
+        set3(&g->own, slot,
+             make3((near_ratio.x > 0 ? near.x : 0) + (far_ratio.x > 0 ? far.x : 0),
+                   (near_ratio.y > 0 ? near.y : 0) + (far_ratio.y > 0 ? far.y : 0),
+                   (near_ratio.z > 0 ? near.z : 0) + (far_ratio.z > 0 ? far.z : 0)));
+    }
+}
+
+/* f and pdf of the neighbours towards the second vertices, as far as these are in sight. */
+static void reach(path_batch *batch, const path_context *c, path_counts *counts)
+{
+    const render_loops *loops = render_loops_chosen();
+    gradient_list *g = &batch->gradients;
+    vertex_list *v = &batch->vertex_lists[0];
+    shadow_list *s = &batch->shadows;
+    for (uint32_t k = 0; k < v->n; k++) g->from[k] = g->beside[v->slot[k]];
+    loops->reach(v, g);
+    loops->aim(v, false);
+    vertices_evaluate(v);
+    loops->connect(v, false);
+    shadow_list_collect(s, v);
+    counts->n_shadow_rays += s->n;
+    tracer_blocked(c->tracer, s->n, rays_of(&s->ray), s->is_blocked);
+    for (uint32_t j = 0; j < s->n; j++)
+        if (s->is_blocked[j]) v->keeps[s->vertex[j]] = 0;
+}
+
+/* What pixels pass on to their neighbours a step along. */
+static void share_light(path_batch *batch, const path_context *c, uint32_t width, uint32_t height, int step,
+                        path_counts *counts)
+{
+    const render_loops *loops = render_loops_chosen();
+    gradient_list *g = &batch->gradients;
+    const vertex_list *v = &batch->vertex_lists[0];
+    find_neighbours(g, width, height, step);
+    look_back(batch);
+    find_neighbours(g, width, height, -step);
+    reach(batch, c, counts);
+    loops->pass_on(&batch->vertex_lists[0], g);
+    for (uint32_t k = 0; k < v->n; k++) {
+        const uint32_t slot = MARGIN + v->slot[k];
+        g->passed[0][slot] = v->f.x[k];
+        g->passed[1][slot] = v->f.y[k];
+        g->passed[2][slot] = v->f.z[k];
+    }
+    loops->give(g, width*height, step);
+}
+
+void gradient_solve(path_batch *batch, const path_context *c, tile where, path_counts *counts)
+{
+    gradient_list *g = &batch->gradients;
+    const uint32_t width = where.x1 - where.x0, height = where.y1 - where.y0;
+    if (drop_dark(batch) > 0) {
+        const render_loops *loops = render_loops_chosen();
+        evaluate_paths(batch);
+        memset(g->given, 0, sizeof g->given);
+        memset(g->passed, 0, sizeof g->passed);
+        loops->liken(g, width, height);
+        const int steps[] = {1, -1, (int)width, -(int)width};
+        for (int i = 0; i < 4; i++) share_light(batch, c, width, height, steps[i], counts);
+        loops->fit(g, width, height, &batch->radiance);
+    }
+    for (uint32_t i = 0; i < PATHS; i++)
+        set3(&batch->radiance, i, add3(get3(&batch->radiance, i), add3(get3(&g->near, i), get3(&g->apart, i))));
+}
