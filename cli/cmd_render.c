@@ -262,6 +262,7 @@ static int run(int argc, char **argv)
     render_options o = {.depth = DEFAULT_DEPTH,
                         .strategy = "mis",
                         .sampler = "sobol",
+                        .gradients = "on",
                         .view = "filmic",
                         .mpi = "auto",
                         .checkpoint_interval = {.value = DEFAULT_INTERVAL}};
@@ -328,6 +329,8 @@ static const option options[] = {
      "find light by rays towards lights, by rays that happen to hit them, or by both (default mis)", 0, 0,
      "explicit|implicit|mis"},
     {"sampler", 0, OPTION_CHOICE, AT(sampler), NULL, "where samples lie (default sobol)", 0, 0, "sobol|random"},
+    {"gradients", 0, OPTION_CHOICE, AT(gradients), NULL, "share light between neighbouring pixels (default on)", 0, 0,
+     "on|off"},
     {"isa", 0, OPTION_CHOICE, AT(isa), NULL,
      "instruction set of the ray tracer, on which the last bits of a picture depend (default avx2 where there is one)",
      0, 0, "sse2|sse4.2|avx|avx2|avx512"},

@@ -74,6 +74,7 @@ void provenance_collect(provenance *p, const render_options *o, const scene *s, 
     add_text(p, "facet:isa", state->isa);
     add_text(p, "facet:strategy", o->strategy);
     add_text(p, "facet:sampler", o->sampler);
+    add_text(p, "facet:gradients", o->gradients);
     add_printed(p, "facet:depth", "%" PRIu32, settings->depth);
     add_text(p, "facet:features", settings->keeps_features ? "kept" : "not kept");
     add_text(p, "facet:camera", c->name);
@@ -99,6 +100,7 @@ static const struct {
     {"facet:seed", "--seed"},
     {"facet:strategy", "--strategy"},
     {"facet:sampler", "--sampler"},
+    {"facet:gradients", "--gradients"},
     {"facet:depth", "--depth"},
     {"facet:isa", "--isa"},
     {"facet:features", "features (--aov, --denoise)"},

@@ -17,7 +17,7 @@ typedef struct render_options {
     text_list outputs, materials;
     uint64_t spp, depth, threads, seed;
     size_t size[2], crop[4];
-    const char *camera, *env, *strategy, *sampler, *isa, *view;
+    const char *camera, *env, *strategy, *sampler, *gradients, *isa, *view;
     const char *checkpoint, *resume, *shard, *events, *mpi;
     const char *aov, *oidn;
     option_number env_scale, time, noise, exposure, checkpoint_interval;

@@ -64,6 +64,7 @@ int prepare_settings(const render_options *o, const scene *s, size_t i_camera, r
                   : strcmp(o->strategy, "implicit") == 0 ? STRATEGY_IMPLICIT
                                                          : STRATEGY_MIS;
     r->sampler = strcmp(o->sampler, "random") == 0 ? SAMPLER_RANDOM : SAMPLER_SOBOL;
+    r->has_gradients = strcmp(o->gradients, "off") != 0;
     r->isa = o->isa;
     r->time_limit = o->time.value;
     r->noise_target = o->noise.value;

@@ -32,8 +32,8 @@ static const struct {
     {"render",
      "--output --spp --size --camera --env --env-scale --depth --threads --seed --crop --time --noise "
      "--aov --denoise --oidn "
-     "--material --strategy --sampler --isa --checkpoint --checkpoint-interval --resume --shard --exposure --view "
-     "--half --quiet --events --json --help -o -s -t -h"},
+     "--material --strategy --sampler --gradients --isa --checkpoint --checkpoint-interval --resume --shard --exposure "
+     "--view --half --quiet --events --json --help -o -s -t -h"},
     {"merge", "--output --aov --denoise --oidn --exposure --view --half --quiet --help -o"},
     {"compare", "--metric --max --exposure --view --diff --json --help"},
     {"eval", "--wi --wo --csv --double --help"},

@@ -86,7 +86,7 @@ static void pictures_carry_their_provenance(void **state)
     static const char *const keys[] = {"facet:version", "facet:command",      "facet:scene_hash", "facet:seed",
                                        "facet:spp",     "facet:time_seconds", "facet:isa",        "facet:strategy",
                                        "facet:sampler", "facet:depth",        "facet:camera",     "facet:clamped",
-                                       "facet:dropped"};
+                                       "facet:dropped", "facet:gradients"};
     for (size_t i = 0; i < sizeof keys/sizeof *keys; i++) {
         assert_true(holds("a.exr", keys[i]));
         assert_true(holds("b.png", keys[i]));
@@ -187,6 +187,11 @@ static void options_change_the_picture_as_they_say(void **state)
             fail_msg("%s %s changed nothing: %s%s", changes[i].option, changes[i].value, run.out, run.err);
         program_run_free(&run);
     }
+    /* Neighbouring pixels have something to compare where what lies behind their surfaces is matte. */
+    MAKE("on.exr", "--env", "1,1,1", "--material", "ball=lambert kd=.8", "--material", "lamp=lambert kd=.8");
+    MAKE("off.exr", "--env", "1,1,1", "--material", "ball=lambert kd=.8", "--material", "lamp=lambert kd=.8",
+         "--gradients", "off");
+    expect_run(RUN("compare", "on.exr", "off.exr", "--metric", "mse", "--max", "0"), 1, "");
     /* Twice the environment alone is twice the picture: exactly, as floats double exactly. */
     MAKE("once.exr", "--env", "1,1,1", "--material", "lamp=lambert", "--depth", "0");
     MAKE("twice.exr", "--env", "1,1,1", "--material", "lamp=lambert", "--depth", "0", "--env-scale", "2");

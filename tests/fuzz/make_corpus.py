@@ -18,8 +18,8 @@ COMMANDS = "render merge compare eval sample terms albedo plot verify materials 
 ARGUMENTS = {
     "render": ["scene.glb", "-o", "a.exr", "-oa.png", "--spp", "16", "--size=64x32", "--crop", "1,2,3,4", "--env", "1,1,.5",
                "--env-scale", "2", "--depth", "4", "-t", "2", "--seed", "7", "--time", "1", "--noise", ".01",
-               "--material", "ball=ggx alpha=.2", "--strategy", "mis", "--sampler", "random", "--isa", "avx2",
-               "--max-memory", "512M", "--allow-outside", "--exposure", "-1", "--view", "agx", "--half", "--quiet",
+               "--material", "ball=ggx alpha=.2", "--strategy", "mis", "--sampler", "random", "--gradients",
+               "off", "--isa", "avx2", "--max-memory", "512M", "--allow-outside", "--exposure", "-1", "--view", "agx", "--half", "--quiet",
                "--events", "-", "--json", "--camera", "far"],
     "merge": ["a.ckpt", "b.ckpt", "-o", "a.png", "--exposure=2", "--"],
     "compare": ["a.exr", "b.exr", "--metric", "flip", "--max", "0.1", "--diff", "d.png"],
@@ -71,8 +71,8 @@ URIS = ["a.bin", "./sub/b.bin", "sub/../a.bin", "../out.bin", "%2e%2e/out.bin", 
 
 IDENTITY = [("facet:version", "0.1.0"), ("facet:command", "facet render --shard 1/2"), ("facet:scene_hash", "0" * 16),
             ("facet:seed", "0"), ("facet:samples", "2"), ("facet:isa", "avx2"), ("facet:strategy", "mis"),
-            ("facet:sampler", "sobol"), ("facet:depth", "8"), ("facet:features", "not kept"),
-            ("facet:camera", "front"), ("facet:size", "2x2"), ("facet:crop", "0,0,2,2"),
+            ("facet:sampler", "sobol"), ("facet:gradients", "on"), ("facet:depth", "8"),
+            ("facet:features", "not kept"), ("facet:camera", "front"), ("facet:size", "2x2"), ("facet:crop", "0,0,2,2"),
             ("facet:world_to_camera", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"),
             ("facet:world_to_ndc", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1")]
 
