@@ -197,6 +197,23 @@ size_t build_texture(scene *s, size_t width, size_t height, const unsigned char 
     return index;
 }
 
+void build_wall(scene *s, const char *spec, const float corner[3], const float u[3], const float v[3])
+{
+    build_quad(s, build_material(s, spec, 0, false), corner, u, v);
+}
+
+void build_veil(scene *s, alpha_mode alpha, float x, float z)
+{
+    static const unsigned char texels[16] = {255, 64, 64, 255, 64, 255, 64, 40, 64, 64, 255, 128, 255, 255, 255, 220};
+    const size_t mat = build_gltf_material(s, .8f, 0, .5f);
+    material *m = &s->materials[mat];
+    m->alpha = alpha;
+    m->alpha_cutoff = .5f;
+    m->is_double_sided = true;
+    m->base_color_texture.texture = build_texture(s, 2, 2, texels, alpha == ALPHA_MASK);
+    build_quad(s, mat, (const float[3]){x, .1f, z}, (const float[3]){.5f, 0, .2f}, (const float[3]){0, .8f, 0});
+}
+
 void build_sky(scene *s, size_t width, size_t height, const float *texels)
 {
     s->environment.map = (image){width, height, 3, PIXEL_F32, copy_of(texels, 3*width*height*sizeof *texels)};
@@ -215,6 +232,15 @@ render_settings random_settings(size_t width, size_t height, uint32_t spp)
     r.n_threads = 2;
     r.seed = 1;
     return r;
+}
+
+image render_picture(const scene *s, const render_settings *settings)
+{
+    render_result result = {0};
+    facet_error why = {0};
+    if (render(s, settings, &result, &why)) fail_msg("render: %s: %s", why.place, why.text);
+    assert_int_equal(result.n_bad, 0);
+    return result.picture;
 }
 
 estimate measure(const scene *s, const render_settings *settings)

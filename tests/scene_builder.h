@@ -70,6 +70,12 @@ void build_orthographic(scene *s, const float eye[3], const float target[3], flo
 /* An RGBA texture of 8-bit texels, linear data, repeated; returns the index of the texture. */
 size_t build_texture(scene *s, size_t width, size_t height, const unsigned char *rgba, bool is_nearest);
 
+/* A quad of a material by its specification. */
+void build_wall(scene *s, const char *spec, const float corner[3], const float u[3], const float v[3]);
+
+/* A quad from (x,.1,z) up, of glTF's own material, whose base colour is a 2 x 2 texture with holes. */
+void build_veil(scene *s, alpha_mode alpha, float x, float z);
+
 /* An environment map; the texels [height][width][3] are copied. */
 void build_sky(scene *s, size_t width, size_t height, const float *texels);
 
@@ -78,6 +84,9 @@ scene *build_ball_and_lamp(void);
 
 /* width x height pixels, spp/SAMPLE_DIVISOR independent random samples each, on two threads. */
 render_settings random_settings(size_t width, size_t height, uint32_t spp);
+
+/* Renders; the picture is the caller's to destroy.  Fails the test if a sample was not finite. */
+image render_picture(const scene *s, const render_settings *settings);
 
 /* The mean luminance of a picture and its standard error, both absolute. */
 typedef struct estimate {

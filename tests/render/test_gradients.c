@@ -62,15 +62,6 @@ static estimate estimate_of(const double values[SEEDS])
 
 /* ---- Pictures ------------------------------------------------------------------------------------------------ */
 
-static image picture_of(const scene *s, const render_settings *r)
-{
-    render_result result = {0};
-    facet_error why = {0};
-    if (render(s, r, &result, &why)) fail_msg("%s: %s", why.place, why.text);
-    assert_int_equal(result.n_bad, 0);
-    return result.picture;
-}
-
 static double mean_of(const image *picture, size_t x0, size_t y0, size_t width, size_t height)
 {
     const float *pixels = picture->pixels;
@@ -83,7 +74,7 @@ static double mean_of(const image *picture, size_t x0, size_t y0, size_t width, 
 
 static bool are_same(const scene *s, const render_settings *a, const render_settings *b)
 {
-    image one = picture_of(s, a), other = picture_of(s, b);
+    image one = render_picture(s, a), other = render_picture(s, b);
     const bool is_same = memcmp(one.pixels, other.pixels, 3*sizeof(float)*a->width*a->height) == 0;
     image_destroy(&one);
     image_destroy(&other);
@@ -108,7 +99,7 @@ static void expect_truth(const char *what, const scene *s, uint32_t spp, sampler
     r.depth = 1000;
     for (uint32_t k = 0; k < SEEDS; k++) {
         r.seed = 100 + k;
-        image picture = picture_of(s, &r);
+        image picture = render_picture(s, &r);
         means[k] = mean_of(&picture, 0, 0, r.width, r.height);
         image_destroy(&picture);
     }
@@ -171,22 +162,17 @@ static void a_lamp_in_a_closed_sphere_lights_it_evenly(void **state)
 
 /* ---- A room -------------------------------------------------------------------------------------------------- */
 
-static void add_wall(scene *s, const char *spec, const float corner[3], const float u[3], const float v[3])
-{
-    build_quad(s, build_material(s, spec, 0, false), corner, u, v);
-}
-
 /* 2 x 2 x 2, open in front, with a lamp of .8 x .8 under the ceiling that is as bright as `lamp`. */
 static scene *bare_room(float lamp)
 {
     scene *s = build_scene();
-    add_wall(s, "lambert kd=.7", (const float[3]){-1, 0, 1}, (const float[3]){2, 0, 0}, (const float[3]){0, 0, -2});
-    add_wall(s, "lambert kd=.7", (const float[3]){-1, 2, -1}, (const float[3]){2, 0, 0}, (const float[3]){0, 0, 2});
-    add_wall(s, "lambert kd=.7", (const float[3]){-1, 0, -1}, (const float[3]){2, 0, 0}, (const float[3]){0, 2, 0});
-    add_wall(s, "lambert kd=.6,.1,.1", (const float[3]){-1, 0, 1}, (const float[3]){0, 0, -2},
-             (const float[3]){0, 2, 0});
-    add_wall(s, "lambert kd=.1,.6,.1", (const float[3]){1, 0, -1}, (const float[3]){0, 0, 2},
-             (const float[3]){0, 2, 0});
+    build_wall(s, "lambert kd=.7", (const float[3]){-1, 0, 1}, (const float[3]){2, 0, 0}, (const float[3]){0, 0, -2});
+    build_wall(s, "lambert kd=.7", (const float[3]){-1, 2, -1}, (const float[3]){2, 0, 0}, (const float[3]){0, 0, 2});
+    build_wall(s, "lambert kd=.7", (const float[3]){-1, 0, -1}, (const float[3]){2, 0, 0}, (const float[3]){0, 2, 0});
+    build_wall(s, "lambert kd=.6,.1,.1", (const float[3]){-1, 0, 1}, (const float[3]){0, 0, -2},
+               (const float[3]){0, 2, 0});
+    build_wall(s, "lambert kd=.1,.6,.1", (const float[3]){1, 0, -1}, (const float[3]){0, 0, 2},
+               (const float[3]){0, 2, 0});
     build_quad(s, build_material(s, "lambert kd=.5", lamp, false), (const float[3]){-.4f, 1.9f, -.4f},
                (const float[3]){.8f, 0, 0}, (const float[3]){0, 0, .8f});
     return s;
@@ -203,19 +189,6 @@ static void add_smooth_ball(scene *s, size_t mat, float x, float y, float z, flo
     build_instance(s, index, (const float[3][4]){{radius, 0, 0, x}, {0, radius, 0, y}, {0, 0, radius, z}});
 }
 
-/* A quad of glTF's own material whose base colour is a 2 x 2 texture with holes. */
-static void add_veil(scene *s, alpha_mode alpha)
-{
-    static const unsigned char texels[16] = {255, 64, 64, 255, 64, 255, 64, 40, 64, 64, 255, 128, 255, 255, 255, 220};
-    const size_t mat = build_gltf_material(s, .8f, 0, .5f);
-    material *m = &s->materials[mat];
-    m->alpha = alpha;
-    m->alpha_cutoff = .5f;
-    m->is_double_sided = true;
-    m->base_color_texture.texture = build_texture(s, 2, 2, texels, alpha == ALPHA_MASK);
-    build_quad(s, mat, (const float[3]){-.8f, .1f, .5f}, (const float[3]){.5f, 0, .2f}, (const float[3]){0, .8f, 0});
-}
-
 /* A room with a bit of all, and a sky before it. */
 static scene *full_room(alpha_mode alpha)
 {
@@ -226,7 +199,7 @@ static scene *full_room(alpha_mode alpha)
     add_smooth_ball(s, build_material(s, "ggx alpha=.3 ks=.3 kd=.4", 0, false), -.5f, 1.3f, -.4f, .25f);
     build_sphere(s, build_material(s, "lambert kd=.3", .8f, true), 0, .15f, .5f, .15f);
     build_sphere(s, build_gltf_material(s, .6f, 1, .5f), .55f, .8f, -.5f, .2f);
-    add_veil(s, alpha);
+    build_veil(s, alpha, -.8f, .5f);
     build_camera(s, (const float[3]){0, 1, 4.2f}, (const float[3]){0, .95f, 0}, .55f);
     for (int k = 0; k < 3; k++) s->environment.scale[k] = .7f;
     return s;
@@ -243,7 +216,7 @@ static block_means measure_blocks(const scene *s, render_settings r)
 {
     static double values[N_BLOCKS + 1][SEEDS];
     for (uint32_t k = 0; k < SEEDS; k++) {
-        image picture = picture_of(s, &r);
+        image picture = render_picture(s, &r);
         for (size_t i = 0; i < N_BLOCKS; i++)
             values[i][k] = mean_of(&picture, i%(WIDTH/SIDE)*SIDE, i/(WIDTH/SIDE)*SIDE, SIDE, SIDE);
         values[N_BLOCKS][k] = mean_of(&picture, 0, 0, WIDTH, HEIGHT);
@@ -307,9 +280,9 @@ static void the_light_of_a_room_stays_where_it_is(void **state)
 static scene *floor_by_walls(void)
 {
     scene *s = build_scene();
-    add_wall(s, "lambert kd=.9", (const float[3]){-1, 0, 9}, (const float[3]){2, 0, 0}, (const float[3]){0, 0, -18});
-    add_wall(s, "lambert kd=.9", (const float[3]){-1, 0, 9}, (const float[3]){0, 0, -18}, (const float[3]){0, 1, 0});
-    add_wall(s, "lambert kd=0", (const float[3]){0, 0, 9}, (const float[3]){0, 0, -18}, (const float[3]){0, 1, 0});
+    build_wall(s, "lambert kd=.9", (const float[3]){-1, 0, 9}, (const float[3]){2, 0, 0}, (const float[3]){0, 0, -18});
+    build_wall(s, "lambert kd=.9", (const float[3]){-1, 0, 9}, (const float[3]){0, 0, -18}, (const float[3]){0, 1, 0});
+    build_wall(s, "lambert kd=0", (const float[3]){0, 0, 9}, (const float[3]){0, 0, -18}, (const float[3]){0, 1, 0});
     const punctual_light lamp = {.kind = LIGHT_POINT, .position = {-.5f, .6f, 0}, .intensity = {1, 1, 1}};
     assert_int_equal(scene_add_light(s, &lamp, NULL), FACET_OK);
     build_orthographic(s, (const float[3]){0, 4, 0}, origin, 1); /* upwards in the picture: x from -1 to 1 */
@@ -320,7 +293,7 @@ static void measure_rows(const scene *s, render_settings r, estimate rows[HEIGHT
 {
     static double values[HEIGHT][SEEDS];
     for (uint32_t k = 0; k < SEEDS; k++) {
-        image picture = picture_of(s, &r);
+        image picture = render_picture(s, &r);
         for (size_t y = 0; y < HEIGHT; y++) values[y][k] = mean_of(&picture, 0, y, WIDTH, 1);
         image_destroy(&picture);
         r.seed++;
@@ -355,9 +328,9 @@ static void light_stays_on_its_side_of_a_wall(void **state)
 /* Root mean square of the difference of two pictures. */
 static double noise_of(const scene *s, render_settings r)
 {
-    image a = picture_of(s, &r);
+    image a = render_picture(s, &r);
     r.seed++;
-    image b = picture_of(s, &r);
+    image b = render_picture(s, &r);
     double sum = 0;
     for (size_t i = 0; i < 3*r.width*r.height; i++) {
         const double d = (double)((const float *)a.pixels)[i] - (double)((const float *)b.pixels)[i];

@@ -49,15 +49,6 @@ static render_settings settings(void)
     return r;
 }
 
-static image picture_of(const scene *s, const render_settings *r)
-{
-    render_result result = {0};
-    facet_error why = {0};
-    if (render(s, r, &result, &why)) fail_msg("%s: %s", why.place, why.text);
-    assert_int_equal(result.n_bad, 0);
-    return result.picture;
-}
-
 static void any_number_of_threads_gives_the_same_bits(void **state)
 {
     (void)state;
@@ -74,10 +65,10 @@ static void any_number_of_threads_gives_the_same_bits(void **state)
         render_settings r = settings();
         r.sampler = cases[k].kind;
         r.n_threads = 1;
-        image one = picture_of(s, &r);
+        image one = render_picture(s, &r);
         for (size_t i = 0; i < sizeof counts/sizeof counts[0]; i++) {
             r.n_threads = counts[i];
-            image many = picture_of(s, &r);
+            image many = render_picture(s, &r);
             assert_memory_equal(one.pixels, many.pixels, 3*sizeof(float)*r.width*r.height);
             image_destroy(&many);
         }
@@ -95,13 +86,13 @@ static void a_crop_equals_its_part_of_the_picture(void **state)
     render_settings r = settings();
     r.has_gradients = false; /* the pixels of a tile would err together, and the crop has other tiles */
     r.n_threads = 3;
-    image whole = picture_of(s, &r);
+    image whole = render_picture(s, &r);
     for (size_t i = 0; i < sizeof crops/sizeof crops[0]; i++) {
         r.crop_x = crops[i][0];
         r.crop_y = crops[i][1];
         r.crop_w = crops[i][2];
         r.crop_h = crops[i][3];
-        image part = picture_of(s, &r);
+        image part = render_picture(s, &r);
         assert_int_equal(part.width, r.crop_w);
         assert_int_equal(part.height, r.crop_h);
         for (size_t y = 0; y < r.crop_h; y++)
@@ -120,9 +111,9 @@ static void another_seed_gives_other_bits(void **state)
     (void)state;
     scene *s = some_of_everything(ALPHA_BLEND);
     render_settings r = settings();
-    image a = picture_of(s, &r);
+    image a = render_picture(s, &r);
     r.seed = 4;
-    image b = picture_of(s, &r);
+    image b = render_picture(s, &r);
     assert_memory_not_equal(a.pixels, b.pixels, 3*sizeof(float)*r.width*r.height);
     image_destroy(&a);
     image_destroy(&b);

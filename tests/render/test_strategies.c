@@ -20,43 +20,25 @@ enum { SIZE = 32, BLOCKS = 4, SIDE = SIZE/BLOCKS };
 
 static const double pi = 3.14159265358979323846;
 
-static void add_wall(scene *s, const char *spec, const float corner[3], const float u[3], const float v[3])
-{
-    build_quad(s, build_material(s, spec, 0, false), corner, u, v);
-}
-
-/* A quad of glTF's own material whose base colour is a 2 x 2 texture with holes. */
-static void add_veil(scene *s, alpha_mode alpha, float x, float z)
-{
-    static const unsigned char texels[16] = {255, 64, 64, 255, 64, 255, 64, 40, 64, 64, 255, 128, 255, 255, 255, 220};
-    const size_t mat = build_gltf_material(s, .8f, 0, .5f);
-    material *m = &s->materials[mat];
-    m->alpha = alpha;
-    m->alpha_cutoff = .5f;
-    m->is_double_sided = true;
-    m->base_color_texture.texture = build_texture(s, 2, 2, texels, alpha == ALPHA_MASK);
-    build_quad(s, mat, (const float[3]){x, .1f, z}, (const float[3]){.5f, 0, .2f}, (const float[3]){0, .8f, 0});
-}
-
 /* A box of 2 x 2 x 2 without a front wall, lit by a lamp of .8 x .8 under the ceiling and by the sky. */
 static scene *room(void)
 {
     scene *s = build_scene();
-    add_wall(s, "lambert kd=.7", (const float[3]){-1, 0, 1}, (const float[3]){2, 0, 0}, (const float[3]){0, 0, -2});
-    add_wall(s, "lambert kd=.7", (const float[3]){-1, 2, -1}, (const float[3]){2, 0, 0}, (const float[3]){0, 0, 2});
-    add_wall(s, "ggx alpha=.3 ks=.3 kd=.4", (const float[3]){-1, 0, -1}, (const float[3]){2, 0, 0},
-             (const float[3]){0, 2, 0});
-    add_wall(s, "lambert kd=.6,.1,.1", (const float[3]){-1, 0, 1}, (const float[3]){0, 0, -2},
-             (const float[3]){0, 2, 0});
-    add_wall(s, "lambert kd=.1,.6,.1", (const float[3]){1, 0, -1}, (const float[3]){0, 0, 2},
-             (const float[3]){0, 2, 0});
+    build_wall(s, "lambert kd=.7", (const float[3]){-1, 0, 1}, (const float[3]){2, 0, 0}, (const float[3]){0, 0, -2});
+    build_wall(s, "lambert kd=.7", (const float[3]){-1, 2, -1}, (const float[3]){2, 0, 0}, (const float[3]){0, 0, 2});
+    build_wall(s, "ggx alpha=.3 ks=.3 kd=.4", (const float[3]){-1, 0, -1}, (const float[3]){2, 0, 0},
+               (const float[3]){0, 2, 0});
+    build_wall(s, "lambert kd=.6,.1,.1", (const float[3]){-1, 0, 1}, (const float[3]){0, 0, -2},
+               (const float[3]){0, 2, 0});
+    build_wall(s, "lambert kd=.1,.6,.1", (const float[3]){1, 0, -1}, (const float[3]){0, 0, 2},
+               (const float[3]){0, 2, 0});
     build_quad(s, build_material(s, "lambert kd=.5", 4, false), (const float[3]){-.4f, 1.9f, -.4f},
                (const float[3]){.8f, 0, 0}, (const float[3]){0, 0, .8f});
     build_sphere(s, build_material(s, "glass ior=1.5", 0, false), -.45f, .35f, -.1f, .35f);
     build_sphere(s, build_material(s, "ggx alpha=.15 ks=.9,.7,.4", 0, false), .5f, .3f, -.4f, .3f);
     build_sphere(s, build_material(s, "lambert kd=.3", .8f, true), 0, .15f, .5f, .15f);
-    add_veil(s, ALPHA_MASK, -.8f, .5f);
-    add_veil(s, ALPHA_BLEND, .3f, .6f);
+    build_veil(s, ALPHA_MASK, -.8f, .5f);
+    build_veil(s, ALPHA_BLEND, .3f, .6f);
     for (int k = 0; k < 3; k++) s->environment.scale[k] = .7f;
     build_camera(s, (const float[3]){0, 1, 4.2f}, (const float[3]){0, .95f, 0}, .55f);
     return s;
