@@ -56,7 +56,8 @@ static render_result run(const scene *s, uint32_t spp, uint32_t n_threads, uint3
     settings.n_threads = n_threads;
     settings.seed = seed;
     settings.sampler = sampler;
-    settings.has_gradients = sampler == SAMPLER_SOBOL; /* the other is what this is held against */
+    settings.gradients = sampler == SAMPLER_SOBOL ? GRADIENTS_ON
+                                                  : GRADIENTS_OFF; /* the other is what this is held against */
     settings.strategy = how;
     render_result result;
     facet_error why = {.text = ""};

@@ -159,6 +159,7 @@ void print_render_json(const render_options *o, const render_settings *settings,
     json_put_number(&j, "noise", result->noise >= 0 ? result->noise : NAN);
     json_put_integer(&j, "bad_samples", result->n_bad);
     json_put_integer(&j, "clamped_samples", result->n_clamped);
+    json_put_bool(&j, "gradients", result->has_gradients);
     json_put_text(&j, "isa", result->isa);
     json_put_open(&j, "warnings", '[');
     for (size_t i = 0; i < warnings->n; i++) json_put_text(&j, NULL, warnings->items[i]);

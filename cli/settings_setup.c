@@ -64,7 +64,9 @@ int prepare_settings(const render_options *o, const scene *s, size_t i_camera, r
                   : strcmp(o->strategy, "implicit") == 0 ? STRATEGY_IMPLICIT
                                                          : STRATEGY_MIS;
     r->sampler = strcmp(o->sampler, "random") == 0 ? SAMPLER_RANDOM : SAMPLER_SOBOL;
-    r->has_gradients = strcmp(o->gradients, "off") != 0;
+    r->gradients = strcmp(o->gradients, "on") == 0    ? GRADIENTS_ON
+                   : strcmp(o->gradients, "off") == 0 ? GRADIENTS_OFF
+                                                      : GRADIENTS_AUTO;
     r->isa = o->isa;
     r->time_limit = o->time.value;
     r->noise_target = o->noise.value;

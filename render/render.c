@@ -9,12 +9,13 @@
 
 #include "core/error.h"
 #include "render/crew.h"
+#include "render/pilot.h"
 #include "render/render_run.h"
 #include "render/surface.h"
 
 void render_settings_defaults(render_settings *settings)
 {
-    *settings = (render_settings){.width = 960, .height = 540, .spp = 64, .depth = 8, .has_gradients = true};
+    *settings = (render_settings){.width = 960, .height = 540, .spp = 64, .depth = 8};
 }
 
 static double read_clock(clockid_t clock)
@@ -104,7 +105,7 @@ static facet_status job_create(const scene *s, const render_settings *r, uint32_
     j->context.sampler = sampler_create(r->sampler, r->seed, r->spp);
     for (size_t i = 0; i < s->n_materials; i++)
         if (s->materials[i].transmission > 0) j->context.has_mixed_surfaces = true;
-    j->context.has_gradients = r->has_gradients && r->depth >= 2 && is_opaque(s);
+    j->context.has_gradients = r->gradients != GRADIENTS_OFF && r->depth >= 2 && is_opaque(s);
     light_set *lights = NULL;
     tracer *built = NULL;
     facet_status status = light_set_create(s, r->strategy == STRATEGY_MIS, &lights, why);
@@ -253,7 +254,7 @@ static uint64_t identity_of(const scene *s, const render_settings *r)
                               (uint64_t)r->strategy,
                               (uint64_t)r->sampler,
                               r->keeps_features,
-                              r->has_gradients};
+                              (uint64_t)r->gradients};
     uint64_t hash = 0xcbf29ce484222325; /* FNV-1a, by words */
     for (size_t i = 0; i < sizeof words/sizeof *words; i++) hash = (hash ^ words[i])*0x100000001b3;
     return hash;
@@ -269,6 +270,9 @@ static facet_status run_create(const scene *s, const render_settings *r, render_
     if (status) return status;
     status = thread_pool_create(n_threads, tracer_prepare_thread, pool);
     if (status) return facet_error_set(why, status, "threads", "cannot start %u threads", n_threads);
+    if (j->context.has_gradients && r->gradients == GRADIENTS_AUTO &&
+        (status = pilot_run(j, *pool, &j->context.has_gradients)) != FACET_OK)
+        return facet_error_set(why, status, "", "no memory for a pilot");
     *u = (run){.job = j,
                .settings = r,
                .seconds = state->seconds,
@@ -319,6 +323,7 @@ facet_status render_continue(const scene *s, const render_settings *settings, re
     }
     if (status == FACET_OK) {
         result->setup_seconds = u.start - begin;
+        result->has_gradients = j.context.has_gradients;
         result->is_complete = state->spp == j.plan.n_share;
         result->is_stopped = !u.is_wanted;
     }

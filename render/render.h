@@ -26,6 +26,10 @@ typedef enum strategy { STRATEGY_MIS, STRATEGY_EXPLICIT, STRATEGY_IMPLICIT } str
 
 typedef enum sampler_kind { SAMPLER_SOBOL, SAMPLER_RANDOM } sampler_kind;
 
+/* Whether neighbouring pixels share light (stage_gradients.c): less noise, the same mean; not with half-transparent
+ * materials.  By default where it pays (pilot.h). */
+typedef enum gradients { GRADIENTS_AUTO, GRADIENTS_ON, GRADIENTS_OFF } gradients;
+
 typedef struct render_progress {
     uint64_t samples_done, samples_total; /* pixel samples; the total as far as the noise target lets it be known */
     double seconds;                       /* since the start of rendering */
@@ -66,8 +70,7 @@ typedef struct render_settings {
     uint32_t seed;
     enum strategy strategy;
     sampler_kind sampler;
-    bool has_gradients; /* neighbouring pixels share light (stage_gradients.c): less noise, the same mean; not with
-                           half-transparent materials */
+    enum gradients gradients;
     uint32_t shard, n_shards; /* render the samples of the shard-th of n_shards, from 1; n_shards == 0: all of them */
     const char *isa;     /* Embree's instruction set: "sse2", "sse4.2", "avx", "avx2", "avx512"; NULL: avx2 where there
                         is one, else the best, or none at all for a small scene ("any") */
@@ -99,7 +102,8 @@ typedef struct render_result {
     uint64_t n_clamped;   /* samples beyond FILM_MOST */
     double seconds;       /* rendering alone, wall clock */
     double cpu_seconds;   /* of the whole process while rendering */
-    double setup_seconds; /* acceleration structure and light tables */
+    double setup_seconds; /* acceleration structure, light tables and pilot */
+    bool has_gradients;   /* light was shared */
     double noise;         /* as in render_progress */
     const char *isa;      /* what Embree used; static storage */
 } render_result;
@@ -118,7 +122,7 @@ void render_state_destroy(render_state *state);
 /* Adds another shard's state of the same render. */
 void render_state_merge(render_state *state, const render_state *other);
 
-/* What has been rendered, without the figures of a run: setup_seconds and is_complete. */
+/* What has been rendered, without the figures of a run: setup_seconds, has_gradients and is_complete. */
 facet_status render_develop(const render_state *state, render_result *result, facet_error *why);
 
 /* The samples of each pixel that are a shard's: *n from *first on. */

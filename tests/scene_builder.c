@@ -228,7 +228,7 @@ render_settings random_settings(size_t width, size_t height, uint32_t spp)
     r.height = height;
     r.spp = spp/SAMPLE_DIVISOR < 2 ? 2 : spp/SAMPLE_DIVISOR;
     r.sampler = SAMPLER_RANDOM;
-    r.has_gradients = false; /* else pixels err together, and their spread does not tell how far */
+    r.gradients = GRADIENTS_OFF; /* else pixels err together, and their spread does not tell how far */
     r.n_threads = 2;
     r.seed = 1;
     return r;

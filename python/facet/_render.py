@@ -79,7 +79,7 @@ def render(scene: Scene = ..., *, aov: None = ..., size: tuple[int, int] | None 
            materials: Mapping[str, str | Material] | None = ..., depth: int | None = ..., seed: int | None = ...,
            threads: int | None = ..., crop: tuple[int, int, int, int] | None = ..., time: float | None = ...,
            noise: float | None = ..., strategy: Literal["explicit", "implicit", "mis"] | None = ...,
-           gradients: bool = ..., progress: bool | Callable[[float], object] = ...,
+           gradients: bool | None = ..., progress: bool | Callable[[float], object] = ...,
            options: Sequence[str] = ...) -> Array: ...
 
 
@@ -89,7 +89,7 @@ def render(scene: Scene = ..., *, aov: Sequence[str], size: tuple[int, int] | No
            materials: Mapping[str, str | Material] | None = ..., depth: int | None = ..., seed: int | None = ...,
            threads: int | None = ..., crop: tuple[int, int, int, int] | None = ..., time: float | None = ...,
            noise: float | None = ..., strategy: Literal["explicit", "implicit", "mis"] | None = ...,
-           gradients: bool = ..., progress: bool | Callable[[float], object] = ...,
+           gradients: bool | None = ..., progress: bool | Callable[[float], object] = ...,
            options: Sequence[str] = ...) -> dict[str, Array]: ...
 
 
@@ -98,7 +98,7 @@ def render(scene: Scene = None, *, aov: Sequence[str] | None = None, size: tuple
            env_scale: float | None = None, materials: Mapping[str, str | Material] | None = None,
            depth: int | None = None, seed: int | None = None, threads: int | None = None,
            crop: tuple[int, int, int, int] | None = None, time: float | None = None, noise: float | None = None,
-           strategy: Literal["explicit", "implicit", "mis"] | None = None, gradients: bool = True,
+           strategy: Literal["explicit", "implicit", "mis"] | None = None, gradients: bool | None = None,
            progress: bool | Callable[[float], object] = False, options: Sequence[str] = ()) -> Array | dict[str, Array]:
     """Renders a scene by the program `facet`: linear Rec.709 radiance, float32 of shape (height, width, 3).
 
@@ -108,7 +108,8 @@ def render(scene: Scene = None, *, aov: Sequence[str] | None = None, size: tuple
     materials: another reflection for materials of the scene, by name: {"body": facet.ggx(alpha=.2)}.
     aov: further pictures, of "albedo", "normal", "distance", "samples" and "noisy"; the result then is a dict of arrays by
         name, the picture itself as "".
-    gradients: share light between neighbouring pixels, which then err together a little; False renders each on its own.
+    gradients: True shares light between neighbouring pixels, which then err together a little; False renders each on its
+        own; None shares where it pays.
     progress: True prints a bar; a function is called with the share that is done.
     options: further arguments as on the command line; `facet render --help` lists them.
 
@@ -122,7 +123,7 @@ def render(scene: Scene = None, *, aov: Sequence[str] | None = None, size: tuple
         command = [find_program(), "render", *([path] if path else []), "-o", picture]
         given: dict[str, Any] = {"spp": spp, "camera": camera, "env-scale": env_scale, "depth": depth, "seed": seed,
                                  "threads": threads, "time": time, "noise": noise, "strategy": strategy,
-                                 "gradients": None if gradients else "off"}
+                                 "gradients": None if gradients is None else "on" if gradients else "off"}
         command += [f"--{name}={value}" for name, value in given.items() if value is not None]
         if size is not None:
             command.append(f"--size={size[0]}x{size[1]}")

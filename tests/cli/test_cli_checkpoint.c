@@ -150,7 +150,7 @@ static void checkpoints_of_other_renders_are_refused(void **state)
         {"--depth", "7", "was made with --depth 8; this render has --depth 7"},
         {"--strategy", "explicit", "was made with --strategy mis; this render has --strategy explicit"},
         {"--sampler", "random", "was made with --sampler sobol; this render has --sampler random"},
-        {"--gradients", "off", "was made with --gradients on; this render has --gradients off"},
+        {"--gradients", "off", "was made with --gradients auto; this render has --gradients off"},
         {"--shard", "1/2", "was made with --shard 1/1; this render has --shard 1/2"},
         {"--isa", "sse2", "this render has --isa sse2"},
         {"--env", "1,1,1", "was made with a scene (with its files, --env and --material) of hash"},

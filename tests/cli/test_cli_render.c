@@ -188,7 +188,8 @@ static void options_change_the_picture_as_they_say(void **state)
         program_run_free(&run);
     }
     /* Neighbouring pixels have something to compare where what lies behind their surfaces is matte. */
-    MAKE("on.exr", "--env", "1,1,1", "--material", "ball=lambert kd=.8", "--material", "lamp=lambert kd=.8");
+    MAKE("on.exr", "--env", "1,1,1", "--material", "ball=lambert kd=.8", "--material", "lamp=lambert kd=.8",
+         "--gradients", "on");
     MAKE("off.exr", "--env", "1,1,1", "--material", "ball=lambert kd=.8", "--material", "lamp=lambert kd=.8",
          "--gradients", "off");
     expect_run(RUN("compare", "on.exr", "off.exr", "--metric", "mse", "--max", "0"), 1, "");

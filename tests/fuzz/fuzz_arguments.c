@@ -48,7 +48,7 @@ static int parse_values(int argc, char **argv, const char **operands)
 
 static int parse_render(int argc, char **argv, const char **operands)
 {
-    render_options o = {.depth = 8, .strategy = "mis", .sampler = "sobol", .gradients = "on", .view = "filmic"};
+    render_options o = {.depth = 8, .strategy = "mis", .sampler = "sobol", .gradients = "auto", .view = "filmic"};
     camera eye = {0};
     const scene s = {.cameras = &eye, .n_cameras = 1};
     render_settings settings;

@@ -71,7 +71,7 @@ URIS = ["a.bin", "./sub/b.bin", "sub/../a.bin", "../out.bin", "%2e%2e/out.bin", 
 
 IDENTITY = [("facet:version", "0.1.0"), ("facet:command", "facet render --shard 1/2"), ("facet:scene_hash", "0" * 16),
             ("facet:seed", "0"), ("facet:samples", "2"), ("facet:isa", "avx2"), ("facet:strategy", "mis"),
-            ("facet:sampler", "sobol"), ("facet:gradients", "on"), ("facet:depth", "8"),
+            ("facet:sampler", "sobol"), ("facet:gradients", "auto"), ("facet:depth", "8"),
             ("facet:features", "not kept"), ("facet:camera", "front"), ("facet:size", "2x2"), ("facet:crop", "0,0,2,2"),
             ("facet:world_to_camera", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1"),
             ("facet:world_to_ndc", "1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1")]

@@ -32,7 +32,7 @@ static double render_small(const char *path, const scene *s, bool has_gradients)
     r.height = 24;
     r.spp = 2;
     r.n_threads = 2;
-    r.has_gradients = has_gradients;
+    r.gradients = has_gradients ? GRADIENTS_ON : GRADIENTS_OFF;
     render_result result = {0};
     facet_error why = {0};
     if (render(s, &r, &result, &why)) fail_msg("%s: %s: %s", path, why.place, why.text);

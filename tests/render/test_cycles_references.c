@@ -147,7 +147,7 @@ static void compare(const comparison *c)
     r.width = w;
     r.height = h;
     r.depth = 32;
-    r.has_gradients = false; /* the error of the mean is taken from pixels that err alone, as the reference's do */
+    r.gradients = GRADIENTS_OFF; /* the error of the mean is taken from pixels that err alone, as the reference's do */
     r.n_threads = 2;
     r.spp = c->spp/SAMPLE_DIVISOR < 2 ? 2 : c->spp/SAMPLE_DIVISOR;
     const size_t whole[4] = {0, 0, w, h}, *part = c->crop[2] ? c->crop : whole;

@@ -55,7 +55,7 @@ static float survive(scene *s)
     for (strategy how = STRATEGY_MIS; how <= STRATEGY_IMPLICIT; how++) {
         render_settings r = settings(how);
         largest_value(s, &r, -FLT_MAX);
-        r.has_gradients = false;
+        r.gradients = GRADIENTS_OFF;
         largest = fmaxf(largest, largest_value(s, &r, 0));
     }
     scene_destroy(s);

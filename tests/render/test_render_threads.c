@@ -84,7 +84,7 @@ static void a_crop_equals_its_part_of_the_picture(void **state)
     static const size_t crops[][4] = {{0, 0, 16, 16}, {5, 3, 40, 37}, {70, 52, 1, 1}, {0, 31, 71, 1}, {33, 0, 7, 53}};
     scene *s = some_of_everything(ALPHA_BLEND);
     render_settings r = settings();
-    r.has_gradients = false; /* the pixels of a tile would err together, and the crop has other tiles */
+    r.gradients = GRADIENTS_OFF; /* the pixels of a tile would err together, and the crop has other tiles */
     r.n_threads = 3;
     image whole = render_picture(s, &r);
     for (size_t i = 0; i < sizeof crops/sizeof crops[0]; i++) {
