@@ -65,6 +65,7 @@ static void choose_light(uint32_t n_triangles, const light_triangle *triangles, 
         light_choice b;
         weigh_lights(&b, n_triangles, triangles, receivers_from(to, first), has_receivers);
         draw_lights(&b, n_triangles, u + first);
+        if (has_receivers) EACH_LANE(i) to.weight[first + i] = b.sum[i];
         EACH_LANE(i)
         probability[first + i] = keep_if(b.sum[i] > 0, keep_if(b.sum[i] < INFINITY, b.weight[i]/b.sum[i]));
         for (size_t i = 0; i < BLOCK; i++) chosen[first + i] = &triangles[b.which[i]];

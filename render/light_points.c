@@ -204,10 +204,11 @@ static void choose_of_many(const light_set *set, size_t n, light_receivers to, d
 }
 
 /* Chooses one of few emitters for a point by *u in [0,1), of which it leaves the rest; *probability of it: 0: none. */
-static uint32_t choose_emitter(const light_set *set, const light_receiver *to, double *u, float *probability)
+static uint32_t choose_emitter(const light_set *set, light_receiver *to, double *u, float *probability)
 {
     float weights[MOST_WEIGHED], sum = 0;
     for (uint32_t i = 0; i < set->n_emitters; i++) sum += weights[i] = importance(set, &set->emitters[i], to);
+    to->weight = sum;
     *probability = 0;
     if (!(sum > 0 && sum < INFINITY)) return 0;
     const uint32_t index = draw_weighted(weights, set->n_emitters, sum, u);
@@ -224,8 +225,8 @@ static float choice_probability(const light_set *set, const light_receiver *to, 
         return (float)((double)share*light_tree_probability(&set->placed, to, (uint32_t)index));
     }
     const light_receiver at = set->needs_receivers ? *to : receiver_anywhere(to->position);
-    float sum = 0;
-    for (uint32_t i = 0; i < set->n_emitters; i++) sum += importance(set, &set->emitters[i], &at);
+    float sum = at.weight;
+    for (uint32_t i = 0; i < set->n_emitters && !(at.weight > 0); i++) sum += importance(set, &set->emitters[i], &at);
     return sum > 0 && sum < INFINITY ? importance(set, &set->emitters[index], &at)/sum : 0;
 }
 
@@ -287,8 +288,9 @@ static void sample_block(const light_set *set, size_t n, light_receivers to, uin
     if (set->n_emitters > MOST_WEIGHED) choose_of_many(set, n, to, choice, which, probability);
     else
         for (size_t i = 0; i < n; i++) {
-            const light_receiver at = set->needs_receivers ? receiver_at(to, i) : receiver_anywhere(position_at(to, i));
+            light_receiver at = set->needs_receivers ? receiver_at(to, i) : receiver_anywhere(position_at(to, i));
             which[i] = choose_emitter(set, &at, &choice[i], &probability[i]);
+            if (set->needs_receivers) to.weight[i] = at.weight;
         }
     for (size_t i = 0; i < LOOP_LANES; i++) {
         const bool is_even = i < n && probability[i] > 0 && set->emitters[which[i]].is_even;

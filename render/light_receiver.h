@@ -20,7 +20,7 @@ typedef struct light_receiver {
     real3 position;
     real3 normal, mirror; /* unit; both 0: light is taken up from all around alike */
     float around, broad, peak, width;
-    float weight; /* light_tree_weight here, once the tree has been walked; 0: not yet */
+    float weight; /* sum of what lights with a place, or all of few, are chosen by here; 0: not yet known */
 } light_receiver;
 
 /* The least of `around`: what a light has where the surface seems to take up nothing. */

@@ -118,6 +118,14 @@ void browser_stop(driven_browser *b)
 
 /* ---- The page ---------------------------------------------------------------------------------- */
 
+void browser_prefer(driven_browser *b, bool is_dark)
+{
+    char parameters[100];
+    snprintf(parameters, sizeof parameters,
+             "\"features\":[{\"name\":\"prefers-color-scheme\",\"value\":\"%s\"}]", is_dark ? "dark" : "light");
+    free(ask(b, "Emulation.setEmulatedMedia", parameters));
+}
+
 char *browser_value(driven_browser *b, const char *expression)
 {
     char parameters[1000];

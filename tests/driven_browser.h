@@ -18,6 +18,9 @@ typedef struct driven_browser {
 driven_browser browser_start(const char *chromium, const char *folder, const char *url);
 void browser_stop(driven_browser *b);
 
+/* What the page is told of the user's preference between light and dark. */
+void browser_prefer(driven_browser *b, bool is_dark);
+
 /* The value of an expression as text; the caller frees. */
 char *browser_value(driven_browser *b, const char *expression);
 /* Waits until an expression is true. */

@@ -45,44 +45,6 @@ static char *start(pid_t *pid, const char *lasts, const char *much, const char *
     }
 }
 
-/* Opens the page until its render is over; the DOM is in `out`, the screen in screen.png. */
-static program_run open_page(const char *url, bool is_dark)
-{
-    char data[1300], screen[1300];
-    snprintf(data, sizeof data, "--user-data-dir=%s", in_folder(folder, "browser"));
-    snprintf(screen, sizeof screen, "--screenshot=%s", in_folder(folder, "screen.png"));
-    const char *const argv[] = {FACET_CHROMIUM,
-                                "--headless",
-                                "--no-sandbox",
-                                "--disable-gpu",
-                                "--no-first-run",
-                                "--window-size=1000,700",
-                                "--virtual-time-budget=2000",
-                                data,
-                                screen,
-                                "--dump-dom",
-                                is_dark ? "--blink-settings=preferredColorScheme=0"
-                                        : "--blink-settings=preferredColorScheme=1",
-                                url,
-                                NULL};
-    const pid_t pid = fork(); /* its messages must not be where the render's are */
-    assert_true(pid >= 0);
-    if (pid == 0) {
-        char *own = strdup(in_folder(folder, "browser-run"));
-        const char *const make[] = {"/bin/mkdir", "-p", own, NULL};
-        wait_for_program(start_program(folder, NULL, "/dev/null", make));
-        _exit(wait_for_program(start_program(own, NULL, in_folder(folder, "dom"), argv)));
-    }
-    program_run run = {.status = wait_for_program(pid)};
-    run.out = read_bytes(in_folder(folder, "dom"), NULL);
-    return run;
-}
-
-static void expect_text(const char *dom, const char *text)
-{
-    if (!dom || !strstr(dom, text)) fail_msg("the page has no `%s`:\n%s", text, dom ? dom : "(none)");
-}
-
 static const unsigned char *pixel_at(const image *screen, size_t x, size_t y)
 {
     return (const unsigned char *)screen->pixels + (y*screen->width + x)*screen->n_channels;
@@ -100,13 +62,13 @@ static void keep_screen(const char *name)
 
 static void look(const char *url, bool is_dark)
 {
-    program_run run = open_page(url, is_dark);
-    assert_int_equal(run.status, 0);
-    expect_text(run.out, "id=\"phase\" role=\"status\">finished<");
-    expect_text(run.out, "scene.gltf, 480 x 240");
-    expect_text(run.out, "id=\"bar\" max=\"1\" value=\"1\"");
-    expect_text(run.out, "/picture.png?v=");
-    program_run_free(&run);
+    driven_browser b = browser_start(FACET_CHROMIUM, folder, url);
+    browser_prefer(&b, is_dark);
+    browser_wait(&b, "typeof at == 'function' && at('phase').textContent == 'finished' && at('bar').value == 1");
+    browser_wait(&b, "at('picture').naturalWidth == 480 && at('picture').src.includes('/picture.png?v=')");
+    browser_wait(&b, "document.body.textContent.includes('scene.gltf, 480 x 240')");
+    browser_screenshot(&b, in_folder(folder, "screen.png"));
+    browser_stop(&b);
     image s;
     facet_error why = {0};
     if (image_read(in_folder(folder, "screen.png"), &s, &why)) fail_msg("%s", why.text);
