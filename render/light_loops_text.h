@@ -22,6 +22,12 @@ static void weigh_by_place(light_triangle given, vectors from, float *restrict w
     weights[i] = light_triangle_importance(given, receiver_anywhere(make3(from.x[i], from.y[i], from.z[i])));
 }
 
+static void weigh_sky(float strength, light_receivers to, bool has_receivers, float *restrict weights)
+{
+    if (has_receivers) EACH_LANE(i) weights[i] = strength*light_received_of_all(receiver_at(to, i));
+    else EACH_LANE(i) weights[i] = strength*light_received_of_all(receiver_anywhere(splat3(0)));
+}
+
 static void weigh_lights(light_choice *b, uint32_t n_triangles, const light_triangle *triangles, light_receivers to,
                          bool has_receivers)
 {
@@ -34,13 +40,13 @@ static void weigh_lights(light_choice *b, uint32_t n_triangles, const light_tria
     }
 }
 
-/* In proportion to the weights; u: 32-bit fractions. */
-static void draw_lights(light_choice *b, uint32_t n_triangles, const uint32_t *u)
+/* In proportion to the weights of the triangles, in what is left after them that of the sky, to which the rest of its
+ * numbers goes. */
+static void draw_lights(light_choice *b, uint32_t n_triangles, bool has_sky, double *number)
 {
     EACH_LANE(i)
     {
-        const double number = ((double)(int32_t)(u[i] ^ SIGN_BIT) + 0x1p31)*0x1p-32;
-        b->left[i] = number*(double)b->sum[i];
+        b->left[i] = number[i]*(double)b->sum[i];
         b->is_open[i] = 1;
         b->which[i] = 0;
         b->weight[i] = 0;
@@ -56,19 +62,36 @@ static void draw_lights(light_choice *b, uint32_t n_triangles, const uint32_t *u
             b->left[i] -= (double)weights[i];
         }
     }
+    if (!has_sky) return;
+    const float *restrict const weights = b->weights[n_triangles];
+    EACH_LANE(i)
+    {
+        const uint32_t takes = weights[i] > 0 ? b->is_open[i] : 0;
+        const double rest = b->left[i]/(double)(weights[i] > 0 ? weights[i] : 1);
+        b->which[i] = takes ? n_triangles : b->which[i];
+        b->weight[i] = takes ? weights[i] : b->weight[i];
+        number[i] = rest < 1 ? rest : 0;
+    }
 }
 
-static void choose_light(uint32_t n_triangles, const light_triangle *triangles, size_t n, light_receivers to,
-                         bool has_receivers, const uint32_t *u, const light_triangle **chosen, float *probability)
+static void choose_light(uint32_t n_triangles, const light_triangle *triangles, float sky_strength, size_t n,
+                         light_receivers to, bool has_receivers, double *number, uint32_t *which, float *probability)
 {
     for (size_t first = 0; first < n; first += BLOCK) {
+        const light_receivers from = receivers_from(to, first);
         light_choice b;
-        weigh_lights(&b, n_triangles, triangles, receivers_from(to, first), has_receivers);
-        draw_lights(&b, n_triangles, u + first);
-        if (has_receivers) EACH_LANE(i) to.weight[first + i] = b.sum[i];
+        weigh_lights(&b, n_triangles, triangles, from, has_receivers);
+        if (sky_strength > 0) {
+            weigh_sky(sky_strength, from, has_receivers, b.weights[n_triangles]);
+            EACH_LANE(i) b.sum[i] += b.weights[n_triangles][i];
+        }
+        draw_lights(&b, n_triangles, sky_strength > 0, number + first);
+        if (has_receivers) EACH_LANE(i) from.weight[i] = b.sum[i];
         EACH_LANE(i)
-        probability[first + i] = keep_if(b.sum[i] > 0, keep_if(b.sum[i] < INFINITY, b.weight[i]/b.sum[i]));
-        for (size_t i = 0; i < BLOCK; i++) chosen[first + i] = &triangles[b.which[i]];
+        {
+            which[first + i] = b.which[i];
+            probability[first + i] = keep_if(b.sum[i] > 0, keep_if(b.sum[i] < INFINITY, b.weight[i]/b.sum[i]));
+        }
     }
 }
 

@@ -286,6 +286,9 @@ static void sample_block(const light_set *set, size_t n, light_receivers to, uin
     for (size_t i = 0; i < n; i++)
         choice[i] = (double)u[0][i]*0x1p-32 + (double)hash_pair(u[0][i], u[1][i] ^ u[2][i])*0x1p-64;
     if (set->n_emitters > MOST_WEIGHED) choose_of_many(set, n, to, choice, which, probability);
+    else if (set->is_few_triangles)
+        loops->choose_light(set->n_triangles, set->triangles, set->sky_strength, n, to, set->needs_receivers, choice,
+                            which, probability);
     else
         for (size_t i = 0; i < n; i++) {
             light_receiver at = set->needs_receivers ? receiver_at(to, i) : receiver_anywhere(position_at(to, i));
@@ -326,9 +329,14 @@ void light_set_sample_many(const light_set *set, size_t n, light_receivers to, u
         }
         const vectors from = vectors_from(to.position, first);
         const light_triangle *chosen[LOOP_LANES];
+        uint32_t which[LOOP_LANES];
         float probability[LOOP_LANES];
-        loops->choose_light(set->n_emitters, set->triangles, some, receivers_from(to, first), set->needs_receivers,
-                            numbers[0], chosen, probability);
+        double choice[LOOP_LANES];
+        for (size_t i = 0; i < LOOP_LANES; i++)
+            choice[i] = (double)(int32_t)(numbers[0][i] ^ 0x80000000)*0x1p-32 + 0.5;
+        loops->choose_light(set->n_triangles, set->triangles, 0, some, receivers_from(to, first), set->needs_receivers,
+                            choice, which, probability);
+        for (size_t i = 0; i < LOOP_LANES; i++) chosen[i] = &set->triangles[which[i]];
         loops->light(chosen, probability, some, from, numbers, samples);
     }
 }

@@ -32,9 +32,12 @@ struct light_set {
     light_tree placed;   /* for more than MOST_WEIGHED */
     alias_table distant; /* likewise, over the rest, if there are any */
     float distant_weight;
-    bool needs_receivers; /* more than MOST_ALIKE */
-    bool is_plain;        /* no more than MOST_WEIGHED, and all of them even triangles, which loops can serve: */
+    bool needs_receivers;  /* more than MOST_ALIKE */
+    bool is_few_triangles; /* no more than MOST_WEIGHED, all of them triangles but for the sky, if there is one: */
+    bool is_plain;         /* ... no sky, and all of the triangles even */
+    uint32_t n_triangles;
     light_triangle triangles[MOST_WEIGHED];
+    float sky_strength;        /* emitter.strength; 0: none */
     size_t *first_of_instance; /* [n_instances] index of the emitter of triangle 0, or NONE */
     size_t *of_sphere;         /* [n_spheres] emitter or NONE */
     size_t sky_emitter;        /* or NONE */

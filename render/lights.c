@@ -162,15 +162,21 @@ static placed_light placed_light_of(const scene *s, const emitter *e)
     return light;
 }
 
-/* Few lights, all alike. */
+/* Few lights, which loops choose from if they are alike. */
 static void gather_triangles(light_set *set)
 {
-    set->is_plain = true;
-    for (uint32_t i = 0; i < set->n_emitters; i++) {
+    const bool has_sky = set->sky_emitter != NONE;
+    set->n_triangles = set->n_emitters - has_sky;
+    set->sky_strength = has_sky ? set->emitters[set->sky_emitter].strength : 0;
+    set->is_few_triangles = !has_sky || set->sky_emitter == set->n_triangles;
+    set->is_plain = !has_sky;
+    for (uint32_t i = 0; i < set->n_triangles; i++) {
         const emitter *e = &set->emitters[i];
-        set->is_plain &= e->kind == EMITTER_TRIANGLE && e->is_even;
+        set->is_few_triangles &= e->kind == EMITTER_TRIANGLE;
+        set->is_plain &= e->is_even;
         set->triangles[i] = e->triangle;
     }
+    set->is_plain &= set->is_few_triangles;
 }
 
 /* The tables by which one of many emitters is chosen. */

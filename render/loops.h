@@ -36,10 +36,11 @@ typedef struct render_loops {
     void (*find_sky)(size_t n, vectors direction, float *u, float *v);
     /* Vertices from `first`, the first of a block, on: those in the block's hits; wi: wo in world space. */
     void (*meet)(struct vertex_list *v, size_t first, plain_block *block);
-    /* For each of n points one of up to MOST_WEIGHED triangles, by 32-bit fractions, and its probability; 0: none.
-     * has_receivers: by more than the positions. */
-    void (*choose_light)(uint32_t n_triangles, const light_triangle *triangles, size_t n, light_receivers to,
-                         bool has_receivers, const uint32_t *u, const light_triangle **chosen, float *probability);
+    /* For each of n points one of the triangles, or n_triangles for a sky of such a strength, MOST_WEIGHED in all, by
+     * numbers in [0,1), and its probability; 0: none.  Those that choose the sky get the rest of their numbers, again in
+     * [0,1).  has_receivers: by more than the positions; they get the sum of the weights. */
+    void (*choose_light)(uint32_t n_triangles, const light_triangle *triangles, float sky_strength, size_t n,
+                         light_receivers to, bool has_receivers, double *number, uint32_t *which, float *probability);
     /* light_tree_draw for n points, among the tree's lights and something distant of a weight of its own, which is
      * LIGHT_DISTANT.  The receivers get the tree's weight. */
     void (*walk_light_tree)(const light_tree *tree, size_t n, light_receivers to, const float *distant, double *u,

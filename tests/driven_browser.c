@@ -121,8 +121,8 @@ void browser_stop(driven_browser *b)
 void browser_prefer(driven_browser *b, bool is_dark)
 {
     char parameters[100];
-    snprintf(parameters, sizeof parameters,
-             "\"features\":[{\"name\":\"prefers-color-scheme\",\"value\":\"%s\"}]", is_dark ? "dark" : "light");
+    snprintf(parameters, sizeof parameters, "\"features\":[{\"name\":\"prefers-color-scheme\",\"value\":\"%s\"}]",
+             is_dark ? "dark" : "light");
     free(ask(b, "Emulation.setEmulatedMedia", parameters));
 }
 
