@@ -50,6 +50,27 @@ static void pass_on(vertex_list *v, gradient_list *g)
         }
 }
 
+/* One channel: (V_p + V_q) C C'/(C + C'), lit being the former. */
+static inline float lamp_passed_on(float own, float seen, float lit)
+{
+    return keep_if((own > 0) & (seen > 0) & (seen < MOST_PASSED), lit*own*(seen/(own + seen)));
+}
+
+static void pass_lamps(vertex_list *v, gradient_list *g)
+{
+    const vector_array *own = &g->brought;
+    for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
+        {
+            const size_t k = first + i, j = g->from[k];
+            const float lit = keep_if(v->keeps[k] != 0, 1) + keep_if(g->is_lit[j] != 0, 1);
+            const float probability = g->lamp_probability[j];
+            const float ratio = keep_if(probability > 0, v->light.probability[k]/probability);
+            v->f.x[k] = lamp_passed_on(own->x[j], ratio*v->f.x[k], lit);
+            v->f.y[k] = lamp_passed_on(own->y[j], ratio*v->f.y[k], lit);
+            v->f.z[k] = lamp_passed_on(own->z[j], ratio*v->f.z[k], lit);
+        }
+}
+
 static void look_back(vertex_list *v, const vertex_list *neighbours, gradient_list *g)
 {
     for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
@@ -101,19 +122,20 @@ static void give(gradient_list *g, size_t n, ptrdiff_t step)
 static inline float alikeness(real3 a, real3 b)
 {
     const float cos = kmax(dot3(a, b), 0);
-    return keep_if(dot3(a, a)*dot3(b, b) > 0.5f, cos*cos + LEAST_ALIKENESS);
+    return keep_if(dot3(a, a)*dot3(b, b) > 0.5f, (cos*cos + LEAST_ALIKENESS)/LIGHT_WEIGHT);
 }
 
 static void liken(gradient_list *g, size_t width, size_t height)
 {
     float *right = g->right + MARGIN, *below = g->below + MARGIN;
+    const float *self = g->self + MARGIN;
     const float *x = g->up[0], *y = g->up[1], *z = g->up[2];
     for (size_t first = 0; first < width*height; first += BLOCK) EACH_LANE(i)
         {
             const size_t k = first + i, r = k + 1, b = k + width;
             const real3 up = make3(x[k], y[k], z[k]);
-            right[k] = alikeness(up, make3(x[r], y[r], z[r]));
-            below[k] = alikeness(up, make3(x[b], y[b], z[b]));
+            right[k] = kmin(self[k], self[r])*alikeness(up, make3(x[r], y[r], z[r]));
+            below[k] = kmin(self[k], self[b])*alikeness(up, make3(x[b], y[b], z[b]));
         }
     for (size_t row = 1; row <= height; row++) right[row*width - 1] = 0;
 }
@@ -123,7 +145,8 @@ static void liken(gradient_list *g, size_t width, size_t height)
  * steps. */
 static void approach(gradient_list *g, size_t n, ptrdiff_t width, float *rest)
 {
-    const float *right = g->right + MARGIN, *below = g->below + MARGIN, *scale = g->scale + MARGIN;
+    const float *right = g->right + MARGIN, *below = g->below + MARGIN, *scale = g->scale + MARGIN,
+                *self = g->self + MARGIN;
     float *step = g->step + MARGIN, *found = g->found + MARGIN;
     const float middle = 0.5f*(MOST_EIGENVALUE + LEAST_EIGENVALUE),
                 half = 0.5f*(MOST_EIGENVALUE - LEAST_EIGENVALUE);
@@ -140,7 +163,7 @@ static void approach(gradient_list *g, size_t n, ptrdiff_t width, float *rest)
             {
                 const ptrdiff_t k = (ptrdiff_t)(first + i);
                 const float s = step[k];
-                rest[k] -= LIGHT_WEIGHT*s + (right[k]*(s - step[k + 1]) + right[k - 1]*(s - step[k - 1])) +
+                rest[k] -= self[k]*s + (right[k]*(s - step[k + 1]) + right[k - 1]*(s - step[k - 1])) +
                            (below[k]*(s - step[k + width]) + below[k - width]*(s - step[k - width]));
             }
         const float next = 1/(2*middle/half - ratio);
@@ -154,12 +177,13 @@ static void fit(gradient_list *g, size_t width, size_t height, vector_array *lig
 {
     const size_t n = width*height;
     const ptrdiff_t row = (ptrdiff_t)width;
-    const float *right = g->right + MARGIN, *below = g->below + MARGIN, *found = g->found + MARGIN;
+    const float *right = g->right + MARGIN, *below = g->below + MARGIN, *found = g->found + MARGIN,
+                *self = g->self + MARGIN;
     float *scale = g->scale + MARGIN, *const channels[] = {light->x, light->y, light->z};
     for (size_t first = 0; first < n; first += BLOCK) EACH_LANE(i)
         {
             const ptrdiff_t k = (ptrdiff_t)(first + i);
-            scale[k] = 1/(LIGHT_WEIGHT + (right[k] + right[k - 1]) + (below[k] + below[k - row]));
+            scale[k] = 1/(self[k] + (right[k] + right[k - 1]) + (below[k] + below[k - row]));
         }
     for (int c = 0; c < 3; c++) {
         float *channel = channels[c];

@@ -75,7 +75,7 @@ static void draw_lights(light_choice *b, uint32_t n_triangles, bool has_sky, dou
 }
 
 static void choose_light(uint32_t n_triangles, const light_triangle *triangles, float sky_strength, size_t n,
-                         light_receivers to, bool has_receivers, double *number, uint32_t *which, float *probability)
+                         light_receivers to, bool has_receivers, light_choices c)
 {
     for (size_t first = 0; first < n; first += BLOCK) {
         const light_receivers from = receivers_from(to, first);
@@ -85,12 +85,34 @@ static void choose_light(uint32_t n_triangles, const light_triangle *triangles, 
             weigh_sky(sky_strength, from, has_receivers, b.weights[n_triangles]);
             EACH_LANE(i) b.sum[i] += b.weights[n_triangles][i];
         }
-        draw_lights(&b, n_triangles, sky_strength > 0, number + first);
-        if (has_receivers) EACH_LANE(i) from.weight[i] = b.sum[i];
+        draw_lights(&b, n_triangles, sky_strength > 0, c.rest + first);
         EACH_LANE(i)
         {
-            which[first + i] = b.which[i];
-            probability[first + i] = keep_if(b.sum[i] > 0, keep_if(b.sum[i] < INFINITY, b.weight[i]/b.sum[i]));
+            from.weight[i] = b.sum[i];
+            c.which[first + i] = b.which[i];
+            c.probability[first + i] = keep_if(b.sum[i] > 0, keep_if(b.sum[i] < INFINITY, b.weight[i]/b.sum[i]));
+        }
+    }
+}
+
+static void rate_light(uint32_t n_triangles, const light_triangle *triangles, float sky_strength, size_t n,
+                       light_receivers to, bool has_receivers, light_choices c)
+{
+    for (size_t first = 0; first < n; first += BLOCK) {
+        const light_receivers from = receivers_from(to, first);
+        float weights[BLOCK], found[BLOCK] = {0};
+        for (uint32_t k = 0; k <= n_triangles; k++) {
+            if (k == n_triangles && !(sky_strength > 0)) break;
+            if (k == n_triangles) weigh_sky(sky_strength, from, has_receivers, weights);
+            else if (has_receivers) weigh_by_surface(triangles[k], from, weights);
+            else weigh_by_place(triangles[k], from.position, weights);
+            EACH_LANE(i) found[i] = c.which[first + i] == k ? weights[i] : found[i];
+        }
+        EACH_LANE(i)
+        {
+            const float sum = from.weight[i];
+            const int is_chosen = (c.probability[first + i] > 0) & (sum > 0) & (sum < INFINITY);
+            c.probability[first + i] = keep_if(is_chosen, found[i]/sum);
         }
     }
 }
@@ -146,9 +168,10 @@ static void draw_top(const light_tree *tree, light_receivers to, const float *di
 
 /* All points of a block go down the tree together, so that the processor has other points to weigh for while it waits
  * for one's node. */
-static void walk_light_tree(const light_tree *tree, size_t n, light_receivers to, const float *distant, double *u,
-                            uint32_t *which, float *probability)
+static void walk_light_tree(const light_tree *tree, size_t n, light_receivers to, const float *distant, light_choices c)
 {
+    double *const u = c.rest;
+
     for (size_t first = 0; first < n; first += BLOCK) {
         const size_t some = n - first < BLOCK ? n - first : BLOCK;
         size_t open[BLOCK], n_open = 0;
@@ -184,9 +207,18 @@ static void walk_light_tree(const light_tree *tree, size_t n, light_receivers to
             n_open = n_kept;
         }
         for (size_t i = 0; i < some; i++) {
-            which[first + i] = next[i] == LIGHT_DISTANT ? next[i] : next[i] & ~LIGHT_NODE_LEAF;
-            probability[first + i] = (float)product[i];
+            c.which[first + i] = next[i] == LIGHT_DISTANT ? next[i] : next[i] & ~LIGHT_NODE_LEAF;
+            c.probability[first + i] = (float)product[i];
         }
+    }
+}
+
+static void rate_light_tree(const light_tree *tree, uint32_t n_lights, size_t n, light_receivers to, light_choices c)
+{
+    for (size_t i = 0; i < n; i++) {
+        if (!(c.probability[i] > 0 && c.which[i] < n_lights)) continue;
+        const light_receiver at = receiver_at(to, i);
+        c.probability[i] = (float)light_walk_probability(tree, &at, (double)at.weight, c.which[i]);
     }
 }
 

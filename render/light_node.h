@@ -78,6 +78,24 @@ static inline double light_node_draw(const light_node *node, const light_receive
     return (double)(weights[k]/sum);
 }
 
+/* light_tree_probability, where the weights of the top's children have that sum. */
+static inline double light_walk_probability(const light_tree *tree, const light_receiver *to, double sum_of_top,
+                                            uint32_t light)
+{
+    enum { WIDTH = LIGHT_NODE_WIDTH };
+    uint32_t place = tree->place[light];
+    if (place == LIGHT_NODE_LEAF) return 0;
+    double probability = 1;
+    for (; place >= tree->n_top; place = tree->nodes[place/WIDTH].parent) {
+        float weights[WIDTH];
+        const float sum = light_node_weigh(&tree->nodes[place/WIDTH], to, weights), weight = weights[place%WIDTH];
+        if (!(weight > 0)) return 0;
+        probability *= (double)(weight/sum);
+    }
+    const float weight = light_child_weight(&tree->nodes[place/WIDTH], place%WIDTH, *to);
+    return weight > 0 ? probability*((double)weight/sum_of_top) : 0;
+}
+
 #ifdef __cplusplus
 }
 #endif

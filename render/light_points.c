@@ -186,20 +186,24 @@ static uint32_t choose_distant(const light_set *set, double *u, float *probabili
     return set->n_placed + index;
 }
 
-/* choose_emitter by the tree, for a block of points; u: room for whole vectors. */
-static void choose_of_many(const light_set *set, size_t n, light_receivers to, double *u, uint32_t *which,
-                           float *probability)
+static light_choices choices_from(light_choices c, size_t first)
+{
+    return (light_choices){c.which + first, c.probability + first, c.rest + first};
+}
+
+/* choose_emitter by the tree, for a block of points. */
+static void choose_of_many(const light_set *set, size_t n, light_receivers to, light_choices c)
 {
     float distant[LOOP_LANES] = {0};
     for (size_t i = 0; i < n && set->distant_weight > 0; i++) {
         const light_receiver at = receiver_at(to, i);
         distant[i] = weight_of_distant(set, &at);
     }
-    render_loops_chosen()->walk_light_tree(&set->placed, n, to, distant, u, which, probability);
+    render_loops_chosen()->walk_light_tree(&set->placed, n, to, distant, c);
     for (size_t i = 0; i < n; i++) {
         float of_distant = 1;
-        if (which[i] == LIGHT_DISTANT) which[i] = choose_distant(set, &u[i], &of_distant);
-        probability[i] *= of_distant;
+        if (c.which[i] == LIGHT_DISTANT) c.which[i] = choose_distant(set, &c.rest[i], &of_distant);
+        c.probability[i] *= of_distant;
     }
 }
 
@@ -225,8 +229,8 @@ static float choice_probability(const light_set *set, const light_receiver *to, 
         return (float)((double)share*light_tree_probability(&set->placed, to, (uint32_t)index));
     }
     const light_receiver at = set->needs_receivers ? *to : receiver_anywhere(to->position);
-    float sum = at.weight;
-    for (uint32_t i = 0; i < set->n_emitters && !(at.weight > 0); i++) sum += importance(set, &set->emitters[i], &at);
+    float sum = to->weight;
+    for (uint32_t i = 0; i < set->n_emitters && !(to->weight > 0); i++) sum += importance(set, &set->emitters[i], &at);
     return sum > 0 && sum < INFINITY ? importance(set, &set->emitters[index], &at)/sum : 0;
 }
 
@@ -272,51 +276,109 @@ static void draw_texels(const light_set *set, size_t n, const uint32_t *which, c
     }
 }
 
-/* A block of no more than LOOP_LANES points. */
-static void sample_block(const light_set *set, size_t n, light_receivers to, uint32_t *const u[3], light_samples s)
+/* What lights are chosen by at a point of a block. */
+static light_receiver block_receiver(const light_set *set, light_receivers to, size_t i)
 {
-    const vectors from = to.position;
-    static const light_triangle dark = {.area = 0};
-    const render_loops *loops = render_loops_chosen();
-    const light_triangle *chosen[LOOP_LANES];
-    uint32_t which[LOOP_LANES];
-    float probability[LOOP_LANES] = {0};
-    double choice[LOOP_LANES] = {0};
-    /* Choosing among many takes more digits than u[0] has, and the sky's texel what is left of them. */
-    for (size_t i = 0; i < n; i++)
-        choice[i] = (double)u[0][i]*0x1p-32 + (double)hash_pair(u[0][i], u[1][i] ^ u[2][i])*0x1p-64;
-    if (set->n_emitters > MOST_WEIGHED) choose_of_many(set, n, to, choice, which, probability);
-    else if (set->is_few_triangles)
-        loops->choose_light(set->n_triangles, set->triangles, set->sky_strength, n, to, set->needs_receivers, choice,
-                            which, probability);
-    else
-        for (size_t i = 0; i < n; i++) {
-            light_receiver at = set->needs_receivers ? receiver_at(to, i) : receiver_anywhere(position_at(to, i));
-            which[i] = choose_emitter(set, &at, &choice[i], &probability[i]);
-            if (set->needs_receivers) to.weight[i] = at.weight;
-        }
-    for (size_t i = 0; i < LOOP_LANES; i++) {
-        const bool is_even = i < n && probability[i] > 0 && set->emitters[which[i]].is_even;
-        chosen[i] = is_even ? &set->emitters[which[i]].triangle : &dark;
+    light_receiver at = set->needs_receivers ? receiver_at(to, i) : receiver_anywhere(position_at(to, i));
+    at.weight = to.weight[i];
+    return at;
+}
+
+/* One of few for each point of a block. */
+static void choose_of_few(const light_set *set, size_t n, light_receivers to, light_choices c)
+{
+    if (set->is_few_triangles) {
+        render_loops_chosen()->choose_light(set->n_triangles, set->triangles, set->sky_strength, n, to,
+                                            set->needs_receivers, c);
+        return;
     }
+    for (size_t i = 0; i < n; i++) {
+        light_receiver at = block_receiver(set, to, i);
+        c.which[i] = choose_emitter(set, &at, &c.rest[i], &c.probability[i]);
+        to.weight[i] = at.weight;
+    }
+}
+
+void light_set_choose(const light_set *set, size_t n, light_receivers to, uint32_t *const u[3], light_choices c)
+{
+    for (size_t first = 0; first < n; first += LOOP_LANES) {
+        const size_t some = n - first < LOOP_LANES ? n - first : LOOP_LANES;
+        const light_receivers at = receivers_from(to, first);
+        const light_choices block = choices_from(c, first);
+        /* Choosing among many takes more digits than u[0] has, and the sky's texel what is left of them. */
+        for (size_t i = 0; i < LOOP_LANES; i++) {
+            const size_t k = first + i;
+            const uint32_t more = set->is_plain ? 0 : hash_pair(u[0][k], u[1][k] ^ u[2][k]);
+            block.rest[i] = (double)u[0][k]*0x1p-32 + (double)more*0x1p-64;
+        }
+        if (set->n_emitters > MOST_WEIGHED) choose_of_many(set, some, at, block);
+        else choose_of_few(set, some, at, block);
+    }
+}
+
+/* light_set_rate among many. */
+static void rate_of_many(const light_set *set, size_t n, light_receivers to, light_choices c)
+{
+    render_loops_chosen()->rate_light_tree(&set->placed, set->n_placed, n, to, c);
+    for (size_t i = 0; i < n && set->distant_weight > 0; i++) {
+        if (!(c.probability[i] > 0)) continue;
+        const light_receiver at = receiver_at(to, i);
+        const float share = share_of_placed(set, &at);
+        if (c.which[i] < set->n_placed) c.probability[i] *= share;
+        else c.probability[i] = (1 - share)*set->distant.cells[c.which[i] - set->n_placed].probability;
+    }
+}
+
+void light_set_rate(const light_set *set, size_t n, light_receivers to, light_choices c)
+{
+    if (set->is_few_triangles) {
+        render_loops_chosen()->rate_light(set->n_triangles, set->triangles, set->sky_strength, n, to,
+                                          set->needs_receivers, c);
+        return;
+    }
+    if (set->n_emitters > MOST_WEIGHED) {
+        rate_of_many(set, n, to, c);
+        return;
+    }
+    for (size_t i = 0; i < n; i++) {
+        if (!(c.probability[i] > 0)) continue;
+        const light_receiver at = block_receiver(set, to, i);
+        c.probability[i] = choice_probability(set, &at, c.which[i]);
+    }
+}
+
+/* A block of no more than LOOP_LANES points. */
+static void place_block(const light_set *set, size_t n, vectors from, light_choices c, uint32_t *const u[3],
+                        light_samples s)
+{
+    static const light_triangle dark = {.area = 0};
+    const light_triangle *chosen[LOOP_LANES];
+    float probability[LOOP_LANES] = {0};
     uint32_t texels[LOOP_LANES];
-    draw_texels(set, n, which, choice, texels);
-    loops->light(chosen, probability, n, from, u, s);
+    for (size_t i = 0; i < LOOP_LANES; i++) {
+        const bool is_even = i < n && c.probability[i] > 0 && set->emitters[c.which[i]].is_even;
+        chosen[i] = is_even ? &set->emitters[c.which[i]].triangle : &dark;
+        if (i < n) probability[i] = c.probability[i];
+    }
+    draw_texels(set, n, c.which, c.rest, texels);
+    render_loops_chosen()->light(chosen, probability, n, from, u, s);
     for (size_t i = 0; i < n; i++) {
         if (chosen[i] != &dark || !(probability[i] > 0)) continue;
-        light_sample light = sample_other(set, &set->emitters[which[i]], position_at(to, i), texels[i],
-                                          fraction(u[1][i]), fraction(u[2][i]));
+        light_sample light = sample_other(set, &set->emitters[c.which[i]], make3(from.x[i], from.y[i], from.z[i]),
+                                          texels[i], fraction(u[1][i]), fraction(u[2][i]));
         light.pdf *= probability[i];
         set_sample(s, i, &light);
     }
 }
 
-void light_set_sample_many(const light_set *set, size_t n, light_receivers to, uint32_t *const u[3], light_samples s)
+void light_set_points(const light_set *set, size_t n, vectors from, light_choices chosen, uint32_t *const u[3],
+                      light_samples s)
 {
-    const render_loops *loops = render_loops_chosen();
     for (size_t first = 0; first < n; first += LOOP_LANES) {
         const size_t some = n - first < LOOP_LANES ? n - first : LOOP_LANES;
         uint32_t *const numbers[3] = {u[0] + first, u[1] + first, u[2] + first};
+        const light_choices c = choices_from(chosen, first);
+        const vectors at = vectors_from(from, first);
         const light_samples samples = {.direction = vectors_from(s.direction, first),
                                        .target = vectors_from(s.target, first),
                                        .radiance = vectors_from(s.radiance, first),
@@ -324,27 +386,20 @@ void light_set_sample_many(const light_set *set, size_t n, light_receivers to, u
                                        .is_infinite = s.is_infinite + first,
                                        .is_delta = s.is_delta + first};
         if (!set->is_plain) {
-            sample_block(set, some, receivers_from(to, first), numbers, samples);
+            place_block(set, some, at, c, numbers, samples);
             continue;
         }
-        const vectors from = vectors_from(to.position, first);
-        const light_triangle *chosen[LOOP_LANES];
-        uint32_t which[LOOP_LANES];
-        float probability[LOOP_LANES];
-        double choice[LOOP_LANES];
-        for (size_t i = 0; i < LOOP_LANES; i++)
-            choice[i] = (double)(int32_t)(numbers[0][i] ^ 0x80000000)*0x1p-32 + 0.5;
-        loops->choose_light(set->n_triangles, set->triangles, 0, some, receivers_from(to, first), set->needs_receivers,
-                            choice, which, probability);
-        for (size_t i = 0; i < LOOP_LANES; i++) chosen[i] = &set->triangles[which[i]];
-        loops->light(chosen, probability, some, from, numbers, samples);
+        const light_triangle *triangles[LOOP_LANES];
+        for (size_t i = 0; i < LOOP_LANES; i++) triangles[i] = &set->triangles[c.which[i]];
+        render_loops_chosen()->light(triangles, c.probability, some, at, numbers, samples);
     }
 }
 
 light_sample light_set_sample(const light_set *set, const light_receiver *to, const uint32_t u[3])
 {
-    float at[14][LOOP_LANES], found[10][LOOP_LANES];
-    uint32_t room[3][LOOP_LANES], is_infinite[LOOP_LANES], is_delta[LOOP_LANES];
+    float at[14][LOOP_LANES], found[10][LOOP_LANES], probability[LOOP_LANES];
+    uint32_t room[3][LOOP_LANES], which[LOOP_LANES], is_infinite[LOOP_LANES], is_delta[LOOP_LANES];
+    double rest[LOOP_LANES];
     uint32_t *const numbers[3] = {room[0], room[1], room[2]};
     for (int i = 0; i < LOOP_LANES; i++) {
         const real3 given[3] = {to->position, to->normal, to->mirror};
@@ -362,13 +417,15 @@ light_sample light_set_sample(const light_set *set, const light_receiver *to, co
     }
     const light_receivers receivers = {
         {at[0], at[1], at[2]}, {at[3], at[4], at[5]}, {at[6], at[7], at[8]}, at[9], at[10], at[11], at[12], at[13]};
-    light_set_sample_many(set, 1, receivers, numbers,
-                          (light_samples){.direction = {found[0], found[1], found[2]},
-                                          .target = {found[3], found[4], found[5]},
-                                          .radiance = {found[6], found[7], found[8]},
-                                          .pdf = found[9],
-                                          .is_infinite = is_infinite,
-                                          .is_delta = is_delta});
+    const light_choices choice = {which, probability, rest};
+    light_set_choose(set, 1, receivers, numbers, choice);
+    light_set_points(set, 1, receivers.position, choice, numbers,
+                     (light_samples){.direction = {found[0], found[1], found[2]},
+                                     .target = {found[3], found[4], found[5]},
+                                     .radiance = {found[6], found[7], found[8]},
+                                     .pdf = found[9],
+                                     .is_infinite = is_infinite,
+                                     .is_delta = is_delta});
     return (light_sample){.direction = make3(found[0][0], found[1][0], found[2][0]),
                           .target = make3(found[3][0], found[4][0], found[5][0]),
                           .radiance = make3(found[6][0], found[7][0], found[8][0]),

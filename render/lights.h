@@ -48,14 +48,28 @@ typedef struct light_sample {
 /* Draws a light and a point on it; u: 32-bit fractions. */
 light_sample light_set_sample(const light_set *set, const light_receiver *to, const uint32_t u[3]);
 
-/* The same for n points, in arrays with room for whole vectors (loops.h). */
+/* The same for n points, in arrays with room for whole vectors (loops.h), in two steps.  The receivers get the sum of
+ * what lights are chosen by. */
+typedef struct light_choices {
+    uint32_t *which;
+    float *probability; /* 0: none */
+    double *rest;       /* of the number that chose, again in [0,1) */
+} light_choices;
+void light_set_choose(const light_set *set, size_t n, light_receivers to, uint32_t *const u[3], light_choices c);
+
+/* The probability with which light_set_choose, which has been called for these receivers, chooses the lights c.which,
+ * in place of one that is not 0. */
+void light_set_rate(const light_set *set, size_t n, light_receivers to, light_choices c);
+
 typedef struct light_samples {
     vectors direction, target, radiance;
     float *pdf;
     uint32_t *is_infinite, *is_delta;
 } light_samples;
 
-void light_set_sample_many(const light_set *set, size_t n, light_receivers to, uint32_t *const u[3], light_samples s);
+/* Draws the points on them. */
+void light_set_points(const light_set *set, size_t n, vectors from, light_choices chosen, uint32_t *const u[3],
+                      light_samples s);
 
 /* The density with which light_set_sample draws the direction to this hit of an emitting surface. */
 float light_set_pdf_of_hit(const light_set *set, const light_receiver *to, const hit *h, const surface *at);

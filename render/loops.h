@@ -37,14 +37,19 @@ typedef struct render_loops {
     /* Vertices from `first`, the first of a block, on: those in the block's hits; wi: wo in world space. */
     void (*meet)(struct vertex_list *v, size_t first, plain_block *block);
     /* For each of n points one of the triangles, or n_triangles for a sky of such a strength, MOST_WEIGHED in all, by
-     * numbers in [0,1), and its probability; 0: none.  Those that choose the sky get the rest of their numbers, again in
-     * [0,1).  has_receivers: by more than the positions; they get the sum of the weights. */
+     * the numbers c.rest, of which those that choose the sky get the rest.  has_receivers: by more than positions. */
     void (*choose_light)(uint32_t n_triangles, const light_triangle *triangles, float sky_strength, size_t n,
-                         light_receivers to, bool has_receivers, double *number, uint32_t *which, float *probability);
+                         light_receivers to, bool has_receivers, light_choices c);
+    /* light_set_rate for those. */
+    void (*rate_light)(uint32_t n_triangles, const light_triangle *triangles, float sky_strength, size_t n,
+                       light_receivers to, bool has_receivers, light_choices c);
     /* light_tree_draw for n points, among the tree's lights and something distant of a weight of its own, which is
-     * LIGHT_DISTANT.  The receivers get the tree's weight. */
-    void (*walk_light_tree)(const light_tree *tree, size_t n, light_receivers to, const float *distant, double *u,
-                            uint32_t *which, float *probability);
+     * LIGHT_DISTANT, by the numbers c.rest.  The receivers get the tree's weight. */
+    void (*walk_light_tree)(const light_tree *tree, size_t n, light_receivers to, const float *distant,
+                            light_choices c);
+    /* light_tree_probability of the tree's lights, its n_lights, among c.which, where c.probability is not 0, for n
+     * points that know the tree's weight. */
+    void (*rate_light_tree)(const light_tree *tree, uint32_t n_lights, size_t n, light_receivers to, light_choices c);
     /* For each of n points one on its triangle, as light_set_sample (lights.h). */
     void (*light)(const light_triangle *const *chosen, const float *probability, size_t n, vectors from,
                   uint32_t *const u[3], light_samples s);
@@ -68,6 +73,8 @@ typedef struct render_loops {
     void (*reach)(struct vertex_list *first, struct gradient_list *g);
     /* Into f what the neighbours' light is worth there, by f and pdf towards those that are to be kept; ... */
     void (*pass_on)(struct vertex_list *first, struct gradient_list *g);
+    /* ... what their lamps are worth there, by what those bring, and to whom; ... */
+    void (*pass_lamps)(struct vertex_list *first, struct gradient_list *g);
     /* ... given to them and taken from those that have it. */
     void (*give)(struct gradient_list *g, size_t n, ptrdiff_t step);
     /* Weights of neighbours. */

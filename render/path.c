@@ -73,6 +73,7 @@ void path_batch_run(path_batch *batch, const path_context *c, tile where, uint32
         stage_meet(batch, c, list, event >= c->settings->depth);
         if (c->has_gradients && event == 1) gradient_of_second_vertices(batch);
         stage_connect(batch, c, group, counts);
+        if (c->has_gradients && event == 0) gradient_of_first_lights(batch, c);
         if (c->has_gradients && event == 1) gradient_of_lights(batch);
         stage_scatter(batch, c, list, event + 1, group, next);
         if (c->has_gradients && event == 0) gradient_start(batch);

@@ -105,7 +105,7 @@ static facet_status job_create(const scene *s, const render_settings *r, uint32_
     j->context.sampler = sampler_create(r->sampler, r->seed, r->spp);
     for (size_t i = 0; i < s->n_materials; i++)
         if (s->materials[i].transmission > 0) j->context.has_mixed_surfaces = true;
-    j->context.has_gradients = r->gradients != GRADIENTS_OFF && r->depth >= 2 && is_opaque(s);
+    j->context.has_gradients = r->gradients != GRADIENTS_OFF && r->depth >= 1 && is_opaque(s);
     light_set *lights = NULL;
     tracer *built = NULL;
     facet_status status = light_set_create(s, r->strategy == STRATEGY_MIS, &lights, why);

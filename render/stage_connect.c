@@ -29,22 +29,18 @@ static void describe_receivers(vertex_list *v)
     loops->receive(v);
 }
 
-/* A light for every vertex, or none: pdf 0. */
-static void choose_lights(const path_context *c, vertex_list *v, uint32_t group)
+void vertices_aim(vertex_list *v, const path_context *c)
 {
-    const render_loops *loops = render_loops_chosen();
     uint32_t *const u[3] = {v->u[0], v->u[1], v->u[2]};
-    loops->points(&c->sampler, v->n, v->pixel, v->index, group + GROUP_LIGHT, u);
     light_array *to = &v->light;
-    if (light_set_needs_receivers(c->lights)) describe_receivers(v);
-    light_set_sample_many(c->lights, v->n, receivers_of(&v->position, &v->receiver), u,
-                          (light_samples){.direction = vectors_of(&to->direction),
-                                          .target = vectors_of(&to->target),
-                                          .radiance = vectors_of(&to->radiance),
-                                          .pdf = to->pdf,
-                                          .is_infinite = to->is_infinite,
-                                          .is_delta = to->is_delta});
-    loops->aim(v, c->settings->strategy == STRATEGY_IMPLICIT);
+    light_set_points(c->lights, v->n, vectors_of(&v->position), choices_of(to), u,
+                     (light_samples){.direction = vectors_of(&to->direction),
+                                     .target = vectors_of(&to->target),
+                                     .radiance = vectors_of(&to->radiance),
+                                     .pdf = to->pdf,
+                                     .is_infinite = to->is_infinite,
+                                     .is_delta = to->is_delta});
+    render_loops_chosen()->aim(v, c->settings->strategy == STRATEGY_IMPLICIT);
 }
 
 void vertices_evaluate(vertex_list *v)
@@ -66,7 +62,8 @@ void vertices_evaluate(vertex_list *v)
     }
 }
 
-void shadow_list_collect(shadow_list *s, const vertex_list *v)
+/* Those that are to be traced. */
+static void collect(shadow_list *s, const vertex_list *v)
 {
     uint32_t n = 0;
     for (uint32_t k = 0; k < v->n; k++) {
@@ -77,21 +74,30 @@ void shadow_list_collect(shadow_list *s, const vertex_list *v)
     s->n = n;
 }
 
+void vertices_connect(path_batch *batch, vertex_list *v, const path_context *c, bool is_mis, path_counts *counts)
+{
+    shadow_list *s = &batch->shadows;
+    vertices_evaluate(v);
+    render_loops_chosen()->connect(v, is_mis);
+    collect(s, v);
+    counts->n_shadow_rays += s->n;
+    tracer_blocked(c->tracer, s->n, rays_of(&s->ray), s->is_blocked);
+    for (uint32_t j = 0; j < s->n; j++)
+        if (s->is_blocked[j]) v->keeps[s->vertex[j]] = 0;
+}
+
 /* Explicit light connection.  [cs500, "Explicit light connection"], corrected: p is a density per solid angle,
  * EvalScattering contains the only cosine at P, and the term is weighted. */
 void stage_connect(path_batch *batch, const path_context *c, uint32_t group, path_counts *counts)
 {
     vertex_list *v = batch->vertices;
-    shadow_list *s = &batch->shadows;
+    uint32_t *const u[3] = {v->u[0], v->u[1], v->u[2]};
     if (light_set_is_empty(c->lights)) return;
-    choose_lights(c, v, group);
-    vertices_evaluate(v);
-    render_loops_chosen()->connect(v, c->settings->strategy == STRATEGY_MIS);
-    shadow_list_collect(s, v);
-    counts->n_shadow_rays += s->n;
-    tracer_blocked(c->tracer, s->n, rays_of(&s->ray), s->is_blocked);
-    for (uint32_t j = 0; j < s->n; j++) {
-        const uint32_t k = s->vertex[j];
-        if (!s->is_blocked[j]) add_radiance(batch, v->slot[k], get3(&v->f, k));
-    }
+    render_loops_chosen()->points(&c->sampler, v->n, v->pixel, v->index, group + GROUP_LIGHT, u);
+    if (light_set_needs_receivers(c->lights)) describe_receivers(v);
+    light_set_choose(c->lights, v->n, receivers_of(&v->position, &v->receiver), u, choices_of(&v->light));
+    vertices_aim(v, c);
+    vertices_connect(batch, v, c, c->settings->strategy == STRATEGY_MIS, counts);
+    for (uint32_t k = 0; k < v->n; k++)
+        if (v->keeps[k]) add_radiance(batch, v->slot[k], get3(&v->f, k));
 }

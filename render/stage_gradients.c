@@ -10,10 +10,16 @@
  * is p's part of an estimate of the difference between q's light and p's, and q's paths have the other part: each path
  * counts once in the mean.  With m = C + D, what p passes on, the difference is C_q - C_p + m_p - m_q.
  *
+ * The lamp that was chosen for p's first vertex is looked at from q's, too, by the same numbers: the same point of it,
+ * but for spheres.  With C' what that brings there, by the ratio of the two probabilities of that lamp, both as if
+ * nothing were in the way, and V whether so, the parts of C and C' in each other's estimates are C/(C + C') and
+ * C'/(C + C'), and what p passes on is
+ *     m = V_p C + C/(C + C') (V_q C' - V_p C) = (V_p + V_q) C C'/(C + C').
+ *
  * The light of all pixels of a tile is then that which fits best:
- *     sum of LIGHT_WEIGHT (x_p - C_p)^2 + sum over neighbours of w_pq (x_q - x_p - difference)^2,
- * w from the normals of the first vertices.  Given these, all estimates have the mean that they should, and the fit is
- * linear in them, so that x has it, too: nothing is blurred.
+ *     sum of w_p (x_p - C_p)^2 + sum over neighbours of w_pq (x_q - x_p - difference)^2,
+ * w_pq from the normals of the first vertices, and both the less, the more light there is.  Given these, all estimates
+ * have the mean that they should, and the fit is linear in them, so that x has it, too: nothing is blurred.
  *
  * A path is shared if its first vertex sent it by a lobe to a surface that reflects by lobes, and if r is no farther
  * from 1 than MOST_CONTRAST, which q's paths see in the same way.  Others have m = 0: they add C_q - C_p to the
@@ -32,6 +38,12 @@ static void set_apart(path_batch *batch)
         set3(apart, i, add3(get3(apart, i), get3(&batch->radiance, i)));
         set3(&batch->radiance, i, splat3(0));
     }
+}
+
+/* Whether the film can hold it. */
+static bool is_held(real3 light)
+{
+    return fabsf(light.x) <= FILM_MOST && fabsf(light.y) <= FILM_MOST && fabsf(light.z) <= FILM_MOST;
 }
 
 void gradient_start(path_batch *batch)
@@ -53,6 +65,46 @@ void gradient_start(path_batch *batch)
         g->up[2][slot] = v->up.z[k];
         copy3(&g->throughput, slot, &v->f, k);
         g->pdf[slot] = v->lobe[k] & FACET_DELTA ? 0 : v->pdf[k];
+    }
+}
+
+/* Errors grow with the light that there is, of which the sum that lights are chosen by tells without a sample: the dark
+ * need not know much of the bright, whose errors they would get. */
+static void weigh_pixels(gradient_list *g, const vertex_list *v)
+{
+    const float *level = v->receiver.weight;
+    double sum = 0;
+    for (uint32_t k = 0; k < v->n; k++) sum += (double)level[k];
+    const float mean = (float)(sum/v->n);
+    if (!(mean > REAL_MIN && mean < INFINITY)) return;
+    for (uint32_t k = 0; k < v->n; k++) {
+        const float relative = 1/(level[k]/mean + LEAST_LEVEL);
+        g->self[MARGIN + v->slot[k]] = LIGHT_WEIGHT*relative*relative;
+    }
+}
+
+void gradient_of_first_lights(path_batch *batch, const path_context *c)
+{
+    gradient_list *g = &batch->gradients;
+    const vertex_list *v = &batch->vertex_lists[0];
+    memset(g->lamp, 0, sizeof g->lamp);
+    memset(g->lamp_probability, 0, sizeof g->lamp_probability);
+    memset(&g->brought, 0, sizeof g->brought);
+    g->has_lamps = false;
+    for (int i = 0; i < FRAMED; i++) g->self[i] = LIGHT_WEIGHT;
+    if (light_set_is_empty(c->lights)) return;
+    weigh_pixels(g, v);
+    for (uint32_t k = 0; k < v->n; k++) {
+        const uint32_t slot = v->slot[k];
+        const real3 light = get3(&v->f, k);
+        if (!(max_of3(light) > 0 && is_held(light))) continue;
+        g->has_lamps = true;
+        g->lamp[slot] = v->light.which[k];
+        g->lamp_probability[slot] = v->light.probability[k];
+        g->lamp_rest[slot] = v->light.rest[k];
+        for (int i = 0; i < 2; i++) g->lamp_u[i][slot] = v->u[i + 1][k];
+        set3(&g->brought, slot, light);
+        g->is_lit[slot] = v->keeps[k];
     }
 }
 
@@ -84,12 +136,6 @@ void gradient_of_lights(path_batch *batch)
     g->to_light = batch->vertex_lists[1].wi;
     g->near = batch->radiance;
     memset(&batch->radiance, 0, sizeof batch->radiance);
-}
-
-/* Whether the film can hold it. */
-static bool is_held(real3 light)
-{
-    return fabsf(light.x) <= FILM_MOST && fabsf(light.y) <= FILM_MOST && fabsf(light.z) <= FILM_MOST;
 }
 
 /* Where there is nothing to share; what the film cannot hold is left to it to count.  Returns the number of others. */
@@ -168,38 +214,63 @@ static void look_back(path_batch *batch)
 static void reach(path_batch *batch, const path_context *c, path_counts *counts)
 {
     const render_loops *loops = render_loops_chosen();
+    vertex_list *v = &batch->vertex_lists[0];
+    loops->reach(v, &batch->gradients);
+    loops->aim(v, false);
+    vertices_connect(batch, v, c, false, counts);
+}
+
+/* What the lights of the neighbours bring, by the same numbers. */
+static void reach_lamps(path_batch *batch, const path_context *c, path_counts *counts)
+{
     gradient_list *g = &batch->gradients;
     vertex_list *v = &batch->vertex_lists[0];
-    shadow_list *s = &batch->shadows;
-    for (uint32_t k = 0; k < v->n; k++) g->from[k] = g->beside[v->slot[k]];
-    loops->reach(v, g);
-    loops->aim(v, false);
-    vertices_evaluate(v);
-    loops->connect(v, false);
-    shadow_list_collect(s, v);
-    counts->n_shadow_rays += s->n;
-    tracer_blocked(c->tracer, s->n, rays_of(&s->ray), s->is_blocked);
-    for (uint32_t j = 0; j < s->n; j++)
-        if (s->is_blocked[j]) v->keeps[s->vertex[j]] = 0;
+    for (uint32_t k = 0; k < v->n; k++) {
+        const uint32_t slot = g->from[k];
+        v->light.which[k] = g->lamp[slot];
+        v->light.probability[k] = g->lamp_probability[slot];
+        v->light.rest[k] = g->lamp_rest[slot];
+        for (int i = 0; i < 2; i++) v->u[i + 1][k] = g->lamp_u[i][slot];
+    }
+    light_set_rate(c->lights, v->n, receivers_of(&v->position, &v->receiver), choices_of(&v->light));
+    vertices_aim(v, c);
+    vertices_connect(batch, v, c, c->settings->strategy == STRATEGY_MIS, counts);
+}
+
+/* Adds f to what is passed on. */
+static void pass(gradient_list *g, const vertex_list *v)
+{
+    for (uint32_t k = 0; k < v->n; k++) {
+        const uint32_t slot = MARGIN + v->slot[k];
+        g->passed[0][slot] += v->f.x[k];
+        g->passed[1][slot] += v->f.y[k];
+        g->passed[2][slot] += v->f.z[k];
+    }
 }
 
 /* What pixels pass on to their neighbours a step along. */
 static void share_light(path_batch *batch, const path_context *c, uint32_t width, uint32_t height, int step,
-                        path_counts *counts)
+                        bool has_seconds, path_counts *counts)
 {
     const render_loops *loops = render_loops_chosen();
     gradient_list *g = &batch->gradients;
-    const vertex_list *v = &batch->vertex_lists[0];
-    find_neighbours(g, width, height, step);
-    look_back(batch);
+    vertex_list *v = &batch->vertex_lists[0];
+    memset(g->passed, 0, sizeof g->passed);
+    if (has_seconds) {
+        find_neighbours(g, width, height, step);
+        look_back(batch);
+    }
     find_neighbours(g, width, height, -step);
-    reach(batch, c, counts);
-    loops->pass_on(&batch->vertex_lists[0], g);
-    for (uint32_t k = 0; k < v->n; k++) {
-        const uint32_t slot = MARGIN + v->slot[k];
-        g->passed[0][slot] = v->f.x[k];
-        g->passed[1][slot] = v->f.y[k];
-        g->passed[2][slot] = v->f.z[k];
+    for (uint32_t k = 0; k < v->n; k++) g->from[k] = g->beside[v->slot[k]];
+    if (has_seconds) {
+        reach(batch, c, counts);
+        loops->pass_on(v, g);
+        pass(g, v);
+    }
+    if (g->has_lamps) {
+        reach_lamps(batch, c, counts);
+        loops->pass_lamps(v, g);
+        pass(g, v);
     }
     loops->give(g, width*height, step);
 }
@@ -208,14 +279,14 @@ void gradient_solve(path_batch *batch, const path_context *c, tile where, path_c
 {
     gradient_list *g = &batch->gradients;
     const uint32_t width = where.x1 - where.x0, height = where.y1 - where.y0;
-    if (drop_dark(batch) > 0) {
+    const bool has_seconds = drop_dark(batch) > 0;
+    if (has_seconds || g->has_lamps) {
         const render_loops *loops = render_loops_chosen();
-        evaluate_paths(batch);
+        if (has_seconds) evaluate_paths(batch);
         memset(g->given, 0, sizeof g->given);
-        memset(g->passed, 0, sizeof g->passed);
         loops->liken(g, width, height);
         const int steps[] = {1, -1, (int)width, -(int)width};
-        for (int i = 0; i < 4; i++) share_light(batch, c, width, height, steps[i], counts);
+        for (int i = 0; i < 4; i++) share_light(batch, c, width, height, steps[i], has_seconds, counts);
         loops->fit(g, width, height, &batch->radiance);
     }
     for (uint32_t i = 0; i < PATHS; i++)

@@ -131,8 +131,11 @@ static void connect(vertex_list *v, bool is_mis)
             const int has_rival = (v->light.is_delta[k] | is_alone) == 0;
             const float weight = power_heuristic(pdf, keep_if(has_rival, v->pdf[k]));
             const int is_infinite = v->light.is_infinite[k] != 0;
-            v->keeps[k] = (pdf > 0) & (max_of3(f) > 0);
-            carry(v, k, mul3(lane3(&v->throughput, k), mul3(f, scale3(weight/pdf, lane3(&v->light.radiance, k)))));
+            const int keeps = (pdf > 0) & (max_of3(f) > 0);
+            const real3 light = mul3(f, scale3(weight/pdf, lane3(&v->light.radiance, k)));
+            const real3 brings = mul3(lane3(&v->throughput, k), light);
+            v->keeps[k] = keeps;
+            carry(v, k, make3(keep_if(keeps, brings.x), keep_if(keeps, brings.y), keep_if(keeps, brings.z)));
             leave(v, k, direction);
             v->ray.direction.x[k] = is_infinite ? direction.x : v->light.target.x[k] - v->ray.origin.x[k];
             v->ray.direction.y[k] = is_infinite ? direction.y : v->light.target.y[k] - v->ray.origin.y[k];

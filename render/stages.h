@@ -61,6 +61,9 @@ typedef struct path_list {
 
 /* Lights chosen for vertices (lights.h). */
 typedef struct light_array {
+    uint32_t which[ROOM];
+    float probability[ROOM];
+    double rest[ROOM];
     vector_array direction, target, radiance;
     float pdf[ROOM];
     uint32_t is_infinite[ROOM], is_delta[ROOM];
@@ -121,6 +124,9 @@ typedef struct feature_list {
 #define LIGHT_WEIGHT 0.04f
 #define LEAST_ALIKENESS 1e-3f
 
+/* Where there is less light than this share of the tile's mean, errors are those of this and more. */
+#define LEAST_LEVEL 0.3f
+
 /* Light that looks so many times brighter or darker from the neighbour is not shared, nor what could overflow. */
 #define MOST_CONTRAST 4.0f
 #define MOST_PASSED 1e30f
@@ -136,12 +142,19 @@ enum { GRADIENT_STEPS = 12 };
 enum { NO_SLOT = PATHS, NO_VERTEX = PATHS, MARGIN = TILE_SIZE, FRAMED = PATHS + 2*MARGIN };
 typedef struct gradient_list {
     LINE_ALIGNED vector_array apart; /* radiance that is not shared */
-    vector_array near;               /* that of lights at the second vertex; the rest is path_batch.radiance */
-    uint32_t first[ROOM];            /* the first vertex, or NO_VERTEX */
-    uint32_t beside[ROOM];           /* the slot of a neighbour, or NO_SLOT */
-    float up[3][FRAMED];             /* its normal, 0 where there is none */
-    vector_array throughput;         /* from the first vertex on */
-    float pdf[ROOM];                 /* of the direction from there [1/sr]; 0: not of a lobe */
+    bool has_lamps;                  /* for first vertices: */
+    uint32_t lamp[ROOM];             /* which was chosen, */
+    float lamp_probability[ROOM];    /* ... 0: none, */
+    double lamp_rest[ROOM];          /* ... and the numbers that draw the point on it */
+    uint32_t lamp_u[2][ROOM];
+    vector_array brought;    /* by it, if nothing is in the way */
+    uint32_t is_lit[ROOM];   /* whether nothing is */
+    vector_array near;       /* that of lights at the second vertex; the rest is path_batch.radiance */
+    uint32_t first[ROOM];    /* the first vertex, or NO_VERTEX */
+    uint32_t beside[ROOM];   /* the slot of a neighbour, or NO_SLOT */
+    float up[3][FRAMED];     /* its normal, 0 where there is none */
+    vector_array throughput; /* from the first vertex on */
+    float pdf[ROOM];         /* of the direction from there [1/sr]; 0: not of a lobe */
     vector_array position, target, normal,
         shading;            /* of the second vertex; target: just off it; normals on wo's side */
     float density[ROOM];    /* of finding it from the first [1/m^2]; 0: nothing is shared */
@@ -153,7 +166,8 @@ typedef struct gradient_list {
     uint32_t from[ROOM];
     float distance2[ROOM], cosine[ROOM]; /* at the second vertex */
     /* The equations */
-    LINE_ALIGNED float right[FRAMED], below[FRAMED]; /* weights of a pixel and its neighbour */
+    LINE_ALIGNED float self[FRAMED];    /* weight of a pixel's own light */
+    float right[FRAMED], below[FRAMED]; /* of its difference from a neighbour's */
     float passed[3][FRAMED], given[3][FRAMED], step[FRAMED], found[FRAMED], scale[FRAMED];
 } gradient_list;
 
@@ -194,6 +208,11 @@ static inline light_receivers receivers_of(vector_array *position, receiver_arra
 static inline rays rays_of(ray_array *a)
 {
     return (rays){vectors_of(&a->origin), vectors_of(&a->direction), a->t_min, a->t_max, a->seed};
+}
+
+static inline light_choices choices_of(light_array *a)
+{
+    return (light_choices){a->which, a->probability, a->rest};
 }
 
 static inline facet_dirs dirs_at(const vector_array *a, uint32_t first)
@@ -279,14 +298,19 @@ void stage_scatter(path_batch *batch, const path_context *c, const path_list *li
 /* f cos and pdf at the directions wi of the vertices whose light.pdf is positive, and of others at will. */
 void vertices_evaluate(vertex_list *v);
 
-/* The vertices' rays that are to be traced. */
-void shadow_list_collect(shadow_list *s, const vertex_list *v);
+/* Rays to the points on the vertices' lights, or to no other place than where light.direction and target are; f is what
+ * they bring if nothing is in the way, and keeps tells where that is so. */
+void vertices_aim(vertex_list *v, const path_context *c);
+void vertices_connect(path_batch *batch, vertex_list *v, const path_context *c, bool is_mis, path_counts *counts);
 
 /* ---- Gradients: light that neighbouring pixels share by their second vertices, if context.has_gradients says so.
  * Between stage_generate and the film: ---- */
 
 /* The first vertices have been given directions. */
 void gradient_start(path_batch *batch);
+
+/* They have been connected to lights. */
+void gradient_of_first_lights(path_batch *batch, const path_context *c);
 
 /* The second vertices have been found, and what paths have gathered so far is set apart. */
 void gradient_of_second_vertices(path_batch *batch);

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import NamedTuple
 
 TREE = Path(__file__).resolve().parent.parent
-RESULTS = TREE/"bench"/"results"/"epyc-2vcpu"
+RESULTS = TREE/"bench"/"results"
 PICTURES = TREE/"docs"/"images"
 
 LEFT, TOP, WIDTH, HEIGHT = 60, 20, 460, 260
@@ -34,9 +34,11 @@ class Figure(NamedTuple):
 
 
 FIGURES = [
-    Figure("lights", [("many_lights_by_power.csv", "by power", "#c0392b"), ("many_lights.csv", "tree", "#1f6fb2")],
-           (1, 5), (-2, 3)),
-    Figure("triangles", [("many_triangles.csv", "", "#1f6fb2")], (4, 7), (2, 4)),
+    Figure("lights", [("epyc-2vcpu/many_lights_by_power.csv", "by power", "#c0392b"),
+                      ("epyc-2vcpu-avx2/many_lights_alone.csv", "tree", "#1f6fb2"),
+                      ("epyc-2vcpu-avx2/many_lights.csv", "shared", "#27864a")], (1, 5), (-2, 3)),
+    Figure("triangles", [("epyc-2vcpu/many_triangles.csv", "alone", "#1f6fb2"),
+                         ("epyc-2vcpu-avx2/many_triangles.csv", "shared", "#27864a")], (4, 7), (1, 4)),
 ]
 
 

@@ -14,6 +14,7 @@
 
 #include "render/loops.h"
 #include "tests/draws.h"
+#include "tests/receiver_block.h"
 #include "tests/scene_builder.h"
 #include "verify/chi_square.h"
 
@@ -164,33 +165,6 @@ static void the_rest_is_uniform(void **state)
     light_tree_destroy(&tree);
 }
 
-/* Receivers as the loops want them. */
-typedef struct receiver_block {
-    float at[14][LOOP_LANES];
-} receiver_block;
-
-static light_receivers receivers_in(receiver_block *b)
-{
-    float(*at)[LOOP_LANES] = b->at;
-    return (light_receivers){
-        {at[0], at[1], at[2]}, {at[3], at[4], at[5]}, {at[6], at[7], at[8]}, at[9], at[10], at[11], at[12], at[13]};
-}
-
-static void put_receiver(receiver_block *b, size_t i, const light_receiver *to)
-{
-    const real3 given[3] = {to->position, to->normal, to->mirror};
-    for (int k = 0; k < 3; k++) {
-        b->at[3*k][i] = given[k].x;
-        b->at[3*k + 1][i] = given[k].y;
-        b->at[3*k + 2][i] = given[k].z;
-    }
-    b->at[9][i] = to->around;
-    b->at[10][i] = to->broad;
-    b->at[11][i] = to->peak;
-    b->at[12][i] = to->width;
-    b->at[13][i] = to->weight;
-}
-
 /* A walk of many points, as light_tree_draw of each, but that what is distant has the upper part of the numbers. */
 static void walks_share_numbers_with_what_is_distant(void **state)
 {
@@ -212,7 +186,8 @@ static void walks_share_numbers_with_what_is_distant(void **state)
             distant[i] = i%4 == 0 ? 0 : light_tree_weight(&tree, &to)*(float)draw_log(&d, 1e-2, 1e2);
             u[i] = number[i] = draw(&d) + draw(&d)*0x1p-24;
         }
-        render_loops_chosen()->walk_light_tree(&tree, LOOP_LANES, receivers_in(&block), distant, u, which, probability);
+        const light_choices c = {which, probability, u};
+        render_loops_chosen()->walk_light_tree(&tree, LOOP_LANES, receivers_in(&block), distant, c);
         for (size_t i = 0; i < LOOP_LANES; i++) {
             light_receiver to = receiver_at(receivers_in(&block), i);
             const double told = (double)to.weight;

@@ -11,8 +11,11 @@
 
 #include <cmocka.h>
 
+#include "render/light_set.h"
+#include "render/loop_lanes.h"
 #include "render/tracer.h"
 #include "tests/draws.h"
+#include "tests/receiver_block.h"
 #include "tests/scene_builder.h"
 #include "verify/chi_square.h"
 
@@ -310,6 +313,70 @@ static void surfaces_draw_emitters_as_claimed(void **state)
     check_densities_to("many and a surface", mixed_scene(40), &glossy, 0.5);
 }
 
+/* Those that are chosen have the probability that is told of them afterwards, and all of few have 1 together: to a part
+ * in 10^7 for each of the products' and sums' rounding. */
+static void check_rates(scene *s, draws *d)
+{
+    light_set *set = lights_of(s);
+    static receiver_block block;
+    uint32_t u[3][LOOP_LANES], which[LOOP_LANES], *const numbers[3] = {u[0], u[1], u[2]};
+    float chosen[LOOP_LANES], rated[LOOP_LANES];
+    double rest[LOOP_LANES], sum[LOOP_LANES] = {0};
+    for (size_t i = 0; i < LOOP_LANES; i++) {
+        light_receiver to = receiver_anywhere(
+            make3((float)draw_between(d, -.5, .5), (float)draw_between(d, -.5, .5), (float)draw_between(d, -.5, .5)));
+        if (set->needs_receivers && i%2) {
+            to.normal = to.mirror = normalize3(to.position);
+            to.around = RECEIVED_AROUND;
+            to.broad = 0.2f;
+            to.width = (float)draw_log(d, 1e-4, 1);
+            to.peak = 0.1f/to.width;
+        }
+        put_receiver(&block, i, &to);
+        for (int k = 0; k < 3; k++) u[k][i] = (uint32_t)draw_bits(d);
+    }
+    const light_receivers to = receivers_in(&block);
+    light_set_choose(set, LOOP_LANES, to, numbers, (light_choices){which, chosen, rest});
+    for (size_t i = 0; i < LOOP_LANES; i++) rated[i] = i == 7 ? 0 : 1;
+    light_set_rate(set, LOOP_LANES, to, (light_choices){which, rated, rest});
+    for (size_t i = 0; i < LOOP_LANES; i++)
+        assert_true(i == 7 ? rated[i] == 0 : fabsf(rated[i] - chosen[i]) <= 1e-5f*chosen[i]);
+    for (uint32_t light = 0; light < set->n_emitters; light++) {
+        for (size_t i = 0; i < LOOP_LANES; i++) {
+            which[i] = light;
+            rated[i] = 1;
+        }
+        light_set_rate(set, LOOP_LANES, to, (light_choices){which, rated, rest});
+        for (size_t i = 0; i < LOOP_LANES; i++) sum[i] += (double)rated[i];
+    }
+    for (size_t i = 0; i < LOOP_LANES; i++) {
+        assert_true(sum[i] < 1 + 1e-5);
+        if (set->n_emitters <= MOST_WEIGHED && chosen[i] > 0) assert_true(sum[i] > 1 - 1e-5);
+    }
+    light_set_destroy(set);
+    scene_destroy(s);
+}
+
+static void lights_are_rated_as_they_are_chosen(void **state)
+{
+    (void)state;
+    static const float corner[3] = {-1, 2, 1}, u[3] = {2, 0, 0}, v[3] = {0, 0, -2};
+    draws d = {21};
+    for (int round = 0; round < 20; round++)
+        for (int n_quads = 0; n_quads <= 3; n_quads++)
+            for (int has_sky = n_quads == 0; has_sky < 2; has_sky++) {
+                scene *s = build_scene();
+                for (int k = 0; k < n_quads; k++)
+                    build_quad(s, glow(s, (float)(k + 1), k == 1), (const float[3]){corner[0] + (float)k, 2, 1}, v, u);
+                for (int k = 0; k < 3; k++) s->environment.scale[k] = (float)has_sky;
+                check_rates(s, &d);
+            }
+    for (int round = 0; round < 20; round++) {
+        check_rates(mixed_scene(8), &d);
+        check_rates(mixed_scene(40), &d);
+    }
+}
+
 /* The mean of what draws bring, each over its probability, is the sum over the lights. */
 static void punctual_lights_among_many_bring_their_light(void **state)
 {
@@ -565,6 +632,7 @@ int main(void)
         cmocka_unit_test(spheres_are_drawn_by_their_cone),
         cmocka_unit_test(many_emitters_are_drawn_as_claimed),
         cmocka_unit_test(surfaces_draw_emitters_as_claimed),
+        cmocka_unit_test(lights_are_rated_as_they_are_chosen),
         cmocka_unit_test(punctual_lights_among_many_bring_their_light),
         cmocka_unit_test(far_small_spheres_keep_their_solid_angle),
         cmocka_unit_test(sky_maps_are_drawn_by_their_radiance),
