@@ -298,9 +298,10 @@ void stage_scatter(path_batch *batch, const path_context *c, const path_list *li
 /* f cos and pdf at the directions wi of the vertices whose light.pdf is positive, and of others at will. */
 void vertices_evaluate(vertex_list *v);
 
-/* Rays to the points on the vertices' lights, or to no other place than where light.direction and target are; f is what
- * they bring if nothing is in the way, and keeps tells where that is so. */
+/* Draws the points on the vertices' lights, which have been chosen, by the numbers u, and turns wi there. */
 void vertices_aim(vertex_list *v, const path_context *c);
+
+/* What comes from there, in f, if nothing is in the way, and whether nothing is, in keeps; is_mis: weighted. */
 void vertices_connect(path_batch *batch, vertex_list *v, const path_context *c, bool is_mis, path_counts *counts);
 
 /* ---- Gradients: light that neighbouring pixels share by their second vertices, if context.has_gradients says so.

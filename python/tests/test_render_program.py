@@ -62,10 +62,13 @@ def test_arguments_are_the_programs_options() -> None:
 
 
 def test_gradients_compare_pixels_of_the_same_mean() -> None:
-    compared = facet.render(size=(48, 32), spp=16)
+    compared = facet.render(size=(48, 32), spp=16, gradients=True)
     alone = facet.render(size=(48, 32), spp=16, gradients=False)
+    np.testing.assert_array_equal(compared, facet.render(size=(48, 32), spp=16, options=["--gradients=on"]))
     np.testing.assert_array_equal(alone, facet.render(size=(48, 32), spp=16, options=["--gradients=off"]))
     assert not np.array_equal(compared, alone)
+    chosen = facet.render(size=(48, 32), spp=16)
+    assert np.array_equal(chosen, compared) or np.array_equal(chosen, alone)
 
 
 def test_progress_is_told() -> None:
