@@ -78,7 +78,7 @@ static inline double light_node_draw(const light_node *node, const light_receive
     return (double)(weights[k]/sum);
 }
 
-/* light_tree_probability, where the weights of the top's children have that sum. */
+/* light_tree_probability, for loops that know the sum of the weights of the top's children. */
 static inline double light_walk_probability(const light_tree *tree, const light_receiver *to, double sum_of_top,
                                             uint32_t light)
 {

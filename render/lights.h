@@ -67,7 +67,7 @@ typedef struct light_samples {
     uint32_t *is_infinite, *is_delta;
 } light_samples;
 
-/* Draws the points on them. */
+/* Draws the points on the lights that were chosen. */
 void light_set_points(const light_set *set, size_t n, vectors from, light_choices chosen, uint32_t *const u[3],
                       light_samples s);
 

@@ -272,7 +272,7 @@ static facet_status run_create(const scene *s, const render_settings *r, render_
     if (status) return facet_error_set(why, status, "threads", "cannot start %u threads", n_threads);
     if (j->context.has_gradients && r->gradients == GRADIENTS_AUTO &&
         (status = pilot_run(j, *pool, &j->context.has_gradients)) != FACET_OK)
-        return facet_error_set(why, status, "", "no memory for a pilot");
+        return facet_error_set(why, status, "gradients", "no memory for a pilot; give on or off");
     *u = (run){.job = j,
                .settings = r,
                .seconds = state->seconds,
