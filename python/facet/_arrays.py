@@ -103,12 +103,13 @@ def fill_view(c: Any, array: Array, shape: tuple[int, ...], parts: int) -> None:
         c.strides[i] = wide.strides[i]
 
 
-def run(loop: Any, bsdf: Any, shape: tuple[int, ...], names: Sequence[str], arguments: Sequence[Any]) -> None:
+def run(loop: Any, bsdf: Any, shape: tuple[int, ...], names: Sequence[str], arguments: Sequence[Any],
+        is_checked: bool = True) -> None:
     """Runs a loop of array_loops.h over all elements; names are those of its inputs."""
     n = 1
     for length in shape:
         n *= length
-    fault = ffi.new("facet_python_fault *")
+    fault = ffi.new("facet_python_fault *") if is_checked else ffi.NULL
     if not loop(bsdf, n, *arguments, fault):
         where = [int(i) for i in np.unravel_index(fault.element, shape)] if shape else []
         value = tuple(float(f"{fault.value[k]:.9g}") for k in range(3))

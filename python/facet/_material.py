@@ -161,30 +161,33 @@ class Material:
 
     # ---- Evaluation ----------------------------------------------------------------------------------------
 
-    def eval(self, wi: ArrayLike, wo: ArrayLike, *, out: Array | None = None) -> Array:
+    def eval(self, wi: ArrayLike, wo: ArrayLike, *, out: Array | None = None, check_inputs: bool = True) -> Array:
         """f(wi, wo) |cos theta_i| as red, green, blue [1/sr]: shape (..., 3).
 
-        0 where nothing is scattered, as below the horizon.  `out`, if given, is filled and returned.
+        0 where nothing is scattered, as below the horizon.  `out`, if given, is filled and returned.  Directions that are
+        not of length 1 raise ValueError.  With check_inputs=False, float32 is taken as it is, which saves up to half of
+        the time: what has another length then gives numbers without meaning, but no error.  float64 is always checked.
         """
         dtype, shape, i, o = _pair(wi, wo)
         f = new_triples(shape, dtype, (i, o)) if out is None else check_out(out, (*shape, 3), dtype, (i, o))
-        run(loop_of("eval", dtype), self._prepared(dtype), shape, ("wi", "wo"),
-            (view(i, shape, 3), view(o, shape, 3), view(f, shape, 3), view(None, shape, 1)))
+        self._evaluate(dtype, shape, i, o, f, None, check_inputs)
         return f
 
-    def pdf(self, wi: ArrayLike, wo: ArrayLike, *, out: Array | None = None) -> Array:
-        """The density with which `sample` draws wi for this wo, per solid angle of wi [1/sr]: shape (...)."""
+    def pdf(self, wi: ArrayLike, wo: ArrayLike, *, out: Array | None = None, check_inputs: bool = True) -> Array:
+        """The density with which `sample` draws wi for this wo, per solid angle of wi [1/sr]: shape (...).
+
+        `out` and `check_inputs` as for eval.
+        """
         dtype, shape, i, o = _pair(wi, wo)
         p = np.empty(shape, dtype) if out is None else check_out(out, shape, dtype, (i, o))
-        run(loop_of("eval", dtype), self._prepared(dtype), shape, ("wi", "wo"),
-            (view(i, shape, 3), view(o, shape, 3), view(None, shape, 3), view(p, shape, 1)))
+        self._evaluate(dtype, shape, i, o, None, p, check_inputs)
         return p[()] if out is None else p
 
     def eval_pdf(self, wi: ArrayLike, wo: ArrayLike, *,
-                 out: tuple[Array, Array] | None = None) -> tuple[Array, Array]:
+                 out: tuple[Array, Array] | None = None, check_inputs: bool = True) -> tuple[Array, Array]:
         """eval and pdf at once, for less than the two, with the same bits: shapes (..., 3) and (...) [1/sr].
 
-        `out`, the result of an earlier call of the same shape, is filled and returned.
+        `out`, the result of an earlier call of the same shape, is filled and returned; `check_inputs` as for eval.
         """
         dtype, shape, i, o = _pair(wi, wo)
         if out is None:
@@ -192,22 +195,27 @@ class Material:
         else:
             f = check_out(out[0], (*shape, 3), dtype, (i, o))
             p = check_out(out[1], shape, dtype, (i, o, f))
-        run(loop_of("eval", dtype), self._prepared(dtype), shape, ("wi", "wo"),
-            (view(i, shape, 3), view(o, shape, 3), view(f, shape, 3), view(p, shape, 1)))
+        self._evaluate(dtype, shape, i, o, f, p, check_inputs)
         return (f, p[()]) if out is None else out
 
-    def sample(self, wo: ArrayLike, u: ArrayLike, *, out: Sample | None = None) -> Sample:
+    def _evaluate(self, dtype: np.dtype[Any], shape: tuple[int, ...], wi: Array, wo: Array, f: Array | None,
+                  pdf: Array | None, check_inputs: bool) -> None:
+        run(loop_of("eval", dtype), self._prepared(dtype), shape, ("wi", "wo"),
+            (view(wi, shape, 3), view(wo, shape, 3), view(f, shape, 3), view(pdf, shape, 1)),
+            check_inputs or dtype == DOUBLE)
+
+    def sample(self, wo: ArrayLike, u: ArrayLike, *, out: Sample | None = None, check_inputs: bool = True) -> Sample:
         """Draws wi for wo, shape (..., 3), from numbers u in [0, 1), shape (..., 3), that are drawn by the caller.
 
         u[..., 0] and u[..., 1] place the direction, u[..., 2] picks the lobe.  `out`, the result of an earlier call of the
-        same shape, is filled and returned.
+        same shape, is filled and returned.  `check_inputs` as for eval; u is checked, too.
 
         >>> import numpy as np, facet
         >>> s = facet.ggx(alpha=.3).sample([0, .6, .8], np.random.default_rng(1).random((1000, 3), np.float32))
         >>> s.wi.shape, s.pdf.shape, s.weight.shape
         ((1000, 3), (1000,), (1000, 3))
         """
-        wi, p, weight, _, _ = self._draw(wo, u, False, out)
+        wi, p, weight, _, _ = self._draw(wo, u, False, out, check_inputs)
         return Sample(wi, p[()], weight) if out is None else out
 
     def sample_lobes(self, wo: ArrayLike, u: ArrayLike) -> LobeSample:
@@ -216,7 +224,7 @@ class Material:
         return LobeSample(wi, p[()], weight, lobe[()], eta[()])
 
     def _draw(self, wo: ArrayLike, u: ArrayLike, has_lobes: bool,
-              out: Sample | None = None) -> tuple[Array, Array, Array, Array, Array]:
+              out: Sample | None = None, check_inputs: bool = True) -> tuple[Array, Array, Array, Array, Array]:
         dtype = precision(wo, u)
         o, x = as_triples(wo, dtype, "wo"), as_triples(u, dtype, "u")
         shape = common_shape(("wo", o), ("u", x))
@@ -236,7 +244,7 @@ class Material:
             fill_view(c.lobe, lobe, shape, 1)
             fill_view(c.eta, eta, shape, 1)
         run(loop_of("sample", dtype), self._prepared(dtype), shape, ("wo", "u"),
-            (view(o, shape, 3), view(x, shape, 3), c))
+            (view(o, shape, 3), view(x, shape, 3), c), check_inputs or dtype == DOUBLE)
         return wi, p, weight, lobe, eta
 
     # ---- The distribution of normals ---------------------------------------------------------------------

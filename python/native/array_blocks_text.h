@@ -146,21 +146,22 @@ static inline BITS NAME(bits)(REAL x)
     return u.bits;
 }
 
-/* |x| as an integer, which has the order of numbers, NaN above all. */
-static inline BITS NAME(magnitude)(REAL x)
-{
-    return NAME(bits)(x) & ((BITS)-1 >> 1);
-}
-
-/* How far |w|^2 is from 1. */
+/* How far |w|^2 is above the least that is taken for 1, as integers: positive numbers have the order of their bits, and
+ * what is below wraps round to above all, where NaN is. */
 static inline BITS NAME(excess)(REAL x, REAL y, REAL z)
 {
-    return NAME(magnitude)(x*x + y*y + z*z - 1);
+    return NAME(bits)(x*x + y*y + z*z) - NAME(bits)((REAL)(1 - FACET_PYTHON_UNIT));
+}
+
+/* That of the largest that is taken for 1. */
+static inline BITS NAME(largest_unit)(void)
+{
+    return NAME(bits)((REAL)(1 + FACET_PYTHON_UNIT)) - NAME(bits)((REAL)(1 - FACET_PYTHON_UNIT));
 }
 
 static int NAME(is_unit)(REAL x, REAL y, REAL z)
 {
-    return NAME(excess)(x, y, z) <= NAME(magnitude)((REAL)FACET_PYTHON_UNIT);
+    return NAME(excess)(x, y, z) <= NAME(largest_unit)();
 }
 
 static int NAME(is_in_cube)(REAL x, REAL y, REAL z)
@@ -185,7 +186,7 @@ EACH_ISA static BITS NAME(largest_excess)(const NAME(window)*a, const NAME(windo
 
 static int NAME(are_units)(const NAME(window)*a, const NAME(window)*b, size_t n)
 {
-    return NAME(largest_excess)(a, b, n) <= NAME(magnitude)((REAL)FACET_PYTHON_UNIT);
+    return NAME(largest_excess)(a, b, n) <= NAME(largest_unit)();
 }
 
 /* Whether those of `a` are unit vectors, and those of `b` in the unit cube: numbers from 0 up have the order of their
@@ -202,7 +203,7 @@ EACH_ISA static int NAME(are_units_and_in_cube)(const NAME(window)*a, const NAME
         distance = d > distance ? d : distance;
         number = largest > number ? largest : number;
     }
-    return distance <= NAME(magnitude)((REAL)FACET_PYTHON_UNIT) && number < NAME(bits)(1);
+    return distance <= NAME(largest_unit)() && number < NAME(bits)(1);
 }
 
 /* Names the first element that is not what is_right wants, of those at elements first, first + 1, ...; false if there

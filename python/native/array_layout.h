@@ -8,12 +8,7 @@
 extern "C" {
 #endif
 
-/* Elements that are handled at a time, so that a block stays in the first cache from one step to the next, and
- * reading, computing and writing overlap: with 64 ggx takes a tenth longer, with 512 rows half as long again.  A
- * density alone, which writes little, takes as many as a copy has room for.  Samples take several loops each, which
- * overlap little, and 13 columns: where nothing is copied, blocks for the second cache, of 104 KiB, save ggx and gtr a
- * tenth. */
-enum { ARRAY_BLOCK = 128, ARRAY_LARGEST_COPY = 256, ARRAY_SAMPLES = 2048 };
+enum { ARRAY_LARGEST_COPY = 256 }; /* elements */
 
 typedef enum array_layout {
     ARRAY_COLUMNS, /* all x one after another, all y, all z: used where they are */
@@ -24,6 +19,16 @@ typedef enum array_layout {
 
 /* Of an array whose cursor is at its start, with 1 or 3 parts to an element, numbers of so many bytes. */
 array_layout array_layout_of(const array_cursor *start, int parts, size_t number);
+
+/* How many elements are handled at a time, so that a block stays in the cache from one step to the next, and reading,
+ * computing and writing overlap. */
+typedef enum array_work { ARRAY_VALUES, ARRAY_DENSITIES, ARRAY_DRAWS } array_work;
+
+/* ... of columns, of which nothing is copied.  All at once if none are checked, as a program in C would. */
+size_t array_columns_block(array_work work, int is_checked);
+
+/* ... of what is copied, at least in part. */
+size_t array_copies_block(array_work work);
 
 #ifdef __cplusplus
 }

@@ -36,7 +36,8 @@ typedef struct facet_python_fault {
 #define FACET_PYTHON_UNIT 1e-4
 
 /* f |cos theta_i| and the pdf, either or both.  False and *fault if a direction is not a unit vector; the outputs then
- * hold what has no meaning. */
+ * hold what has no meaning.  With float, fault may be NULL here and below: nothing is checked, and what is not as it
+ * should be gives numbers without meaning. */
 FACET_API int facet_python_eval(const facet_bsdf *bsdf, size_t n, const facet_python_array *wi,
                                 const facet_python_array *wo, const facet_python_array *f,
                                 const facet_python_array *pdf, facet_python_fault *fault);

@@ -82,33 +82,38 @@ static void NAME(terms_block)(const BSDF *bsdf, size_t n, const NAME(window)*m, 
 #define EACH_BLOCK(n, size)                                                                                            \
     for (size_t first = 0, some = 0; some = (n)-first < (size) ? (n)-first : (size), first < (n); first += some)
 
-/* Inputs are checked when they are in the cache.  In float that is after they were used, which lets computing hide the
- * time that memory takes: float kernels look nothing up, so that any numbers are safe.  Double ones do. */
+/* Inputs are checked, unless fault is NULL, when they are in the cache.  In float that is after they were used, which
+ * lets computing hide the time that memory takes: float kernels look nothing up, so that any numbers are safe.  Double
+ * ones do. */
 #define CHECKS_FIRST (!HAS_BATCHES)
 
 static int NAME(check_pair)(const NAME(window)*wi, const NAME(window)*wo, size_t n, size_t first,
                             facet_python_fault *fault)
 {
-    return NAME(are_units)(wi, wo, n) ||
+    return !fault || NAME(are_units)(wi, wo, n) ||
            (NAME(tell)(wi, NAME(is_unit), n, first, 1, fault) && NAME(tell)(wo, NAME(is_unit), n, first, 2, fault));
 }
 
 static int NAME(check_draw)(const NAME(window)*wo, const NAME(window)*u, size_t n, size_t first,
                             facet_python_fault *fault)
 {
-    return NAME(are_units_and_in_cube)(wo, u, n) ||
+    return !fault || NAME(are_units_and_in_cube)(wo, u, n) ||
            (NAME(tell)(wo, NAME(is_unit), n, first, 1, fault) && NAME(tell)(u, NAME(is_in_cube), n, first, 2, fault));
 }
 
 int PUBLIC(eval)(const BSDF *bsdf, size_t n, const facet_python_array *wi, const facet_python_array *wo,
                  const facet_python_array *f, const facet_python_array *pdf, facet_python_fault *fault)
 {
-    const size_t size = f->data ? ARRAY_BLOCK : ARRAY_LARGEST_COPY;
     NAME(window) i, o, value, density;
     NAME(open_input)(&i, wi);
     NAME(open_input)(&o, wo);
     NAME(open_output)(&value, f, 3);
     NAME(open_output)(&density, pdf, 1);
+    const int has_columns = i.layout == ARRAY_COLUMNS && o.layout == ARRAY_COLUMNS &&
+                            (!f->data || value.layout == ARRAY_COLUMNS) &&
+                            (!pdf->data || density.layout == ARRAY_COLUMNS);
+    const array_work work = f->data ? ARRAY_VALUES : ARRAY_DENSITIES;
+    const size_t size = has_columns ? array_columns_block(work, fault != NULL) : array_copies_block(work);
     EACH_BLOCK(n, size)
     {
         NAME(read)(&i, some);
@@ -139,7 +144,9 @@ int PUBLIC(sample)(const BSDF *bsdf, size_t n, const facet_python_array *wo, con
     const int has_rows = o.layout == ARRAY_ROWS || i.layout == ARRAY_ROWS,
               has_columns = o.layout == ARRAY_COLUMNS && x.layout == ARRAY_COLUMNS && i.layout == ARRAY_COLUMNS &&
                             density.layout == ARRAY_COLUMNS && weight.layout == ARRAY_COLUMNS && !has_lobes;
-    const size_t size = has_rows ? ARRAY_BLOCK : has_columns ? ARRAY_SAMPLES : ARRAY_LARGEST_COPY;
+    const size_t size = has_columns ? array_columns_block(ARRAY_DRAWS, fault != NULL)
+                        : has_rows  ? array_copies_block(ARRAY_DRAWS)
+                                    : ARRAY_LARGEST_COPY;
     int32_t lobe[ARRAY_LARGEST_COPY] = {0};
     EACH_BLOCK(n, size)
     {
@@ -169,7 +176,8 @@ int PUBLIC(terms)(const BSDF *bsdf, size_t n, const facet_python_array *m, const
     NAME(window) v, values[3];
     NAME(open_input)(&v, m);
     for (int k = 0; k < 3; k++) NAME(open_output)(&values[k], outputs[k], 1);
-    EACH_BLOCK(n, ARRAY_BLOCK)
+    const size_t size = array_copies_block(ARRAY_VALUES);
+    EACH_BLOCK(n, size)
     {
         NAME(read)(&v, some);
         if (!NAME(tell)(&v, NAME(is_unit), some, first, 1, fault)) return 0;

@@ -129,16 +129,23 @@ def test_blocks_meet_without_a_seam(data: st.DataObject, n: int) -> None:
     np.testing.assert_array_equal(m.sample(gapped, u).weight, weights)
 
 
-@pytest.mark.parametrize("n", [1, 2047, 2048, 2049, 5000])
-def test_columns_of_samples_meet_without_a_seam(n: int) -> None:
-    """Their blocks are larger than those of rows."""
+@pytest.mark.parametrize("check_inputs", [True, False])
+@pytest.mark.parametrize("n", [1, 511, 512, 513, 2047, 2048, 2049, 5000])
+def test_columns_meet_without_a_seam(n: int, check_inputs: bool) -> None:
+    """Their blocks are larger than those of rows, or all of them are one."""
     rng = np.random.default_rng(n)
-    wo, u, m = unit_vectors(rng, n, above=True), rng.random((n, 3), np.float32), facet.ggx(alpha=0.4)
+    wi, wo = unit_vectors(rng, n, above=True), unit_vectors(rng, n, above=True)
+    u, m = rng.random((n, 3), np.float32), facet.ggx(alpha=0.4)
     u[::1000, 1] = -0.0  # a number in [0, 1)
-    rows, columns = m.sample(wo, u), m.sample(np.asfortranarray(wo), np.asfortranarray(u))
-    assert columns.weight.flags.f_contiguous
-    for got, expected in zip(columns, rows):
+    i, o, x = (np.asfortranarray(a) for a in (wi, wo, u))
+    drawn = m.sample(o, x, check_inputs=check_inputs)
+    assert drawn.weight.flags.f_contiguous
+    for got, expected in zip(drawn, m.sample(wo, u)):
         np.testing.assert_array_equal(got, expected)
+    for got, expected in zip(m.eval_pdf(i, o, check_inputs=check_inputs), m.eval_pdf(wi, wo)):
+        np.testing.assert_array_equal(got, expected)
+    np.testing.assert_array_equal(m.eval(i, o, check_inputs=check_inputs), m.eval(wi, wo))
+    np.testing.assert_array_equal(m.pdf(i, o, check_inputs=check_inputs), m.pdf(wi, wo))
 
 
 @pytest.mark.parametrize("dtype", [np.float32, np.float64])
@@ -214,7 +221,28 @@ def test_no_number_does_harm(m: facet.Material, dtype: type) -> None:
                 call()
 
 
-@pytest.mark.parametrize("excess, is_unit", [(4e-5, True), (6e-5, False)])
+@pytest.mark.parametrize("m", MATERIALS, ids=[m.spec for m in MATERIALS])
+def test_no_number_does_harm_unchecked(m: facet.Material) -> None:
+    """What is wrong gives numbers without meaning, and leaves its neighbours alone; float64 is checked all the same."""
+    rng = np.random.default_rng(8)
+    good, u = unit_vectors(rng, 72, above=True), rng.random((72, 3), np.float32)
+    wrong, is_wrong = good.copy(), np.zeros(72, bool)
+    for k, number in enumerate((np.nan, np.inf, -np.inf, 3e38, -3e38, 1e-45, -2, 7)):
+        wrong[9 * k + 5, k % 3], is_wrong[9 * k + 5] = number, True
+    for lay in (np.ascontiguousarray, np.asfortranarray, lambda a: np.repeat(a, 2, axis=0)[::2]):
+        bad, fine, x = lay(wrong), lay(good), lay(u)
+        for got, expected in ((m.eval(bad, fine, check_inputs=False), m.eval(good, good)),
+                              (m.pdf(fine, bad, check_inputs=False), m.pdf(good, good)),
+                              (m.eval_pdf(bad, bad, check_inputs=False)[0], m.eval(good, good)),
+                              (m.sample(bad, x, check_inputs=False).wi, m.sample(good, u).wi),
+                              (m.sample(fine, np.abs(bad), check_inputs=False).wi, m.sample(good, np.abs(good)).wi)):
+            np.testing.assert_array_equal(got[~is_wrong], expected[~is_wrong])
+    for call in (m.eval, m.pdf, m.eval_pdf, m.sample):
+        with pytest.raises(ValueError, match=r"\[5\] is \(nan"):
+            call(wrong.astype(float), good, check_inputs=False)
+
+
+@pytest.mark.parametrize("excess, is_unit", [(4e-5, True), (6e-5, False), (-4e-5, True), (-6e-5, False), (-1, False)])
 def test_directions_may_be_rounded(excess: float, is_unit: bool) -> None:
     """|w|^2 = 1 within 1e-4, thus |w| = 1 within 5e-5."""
     wi = np.array([0, 0, 1 + excess])
