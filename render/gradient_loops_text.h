@@ -106,14 +106,14 @@ static void contrast(vertex_list *v, const vector_array *own_f, vector_array *ra
 static void give(gradient_list *g, size_t n, ptrdiff_t step)
 {
     const float *weights = MARGIN + (step == 1 || step == -1 ? g->right : g->below);
-    const ptrdiff_t before = step > 0 ? -step : 0, after = step > 0 ? 0 : step;
+    const float *before = weights + (step > 0 ? -step : 0), *after = weights + (step > 0 ? 0 : step);
     for (int c = 0; c < 3; c++) {
-        const float *passed = g->passed[c] + MARGIN;
+        const float *passed = g->passed[c] + MARGIN, *passed_next = passed + step;
         float *given = g->given[c] + MARGIN;
         for (size_t first = 0; first < n; first += BLOCK) EACH_LANE(i)
             {
-                const ptrdiff_t k = (ptrdiff_t)(first + i);
-                given[k] += weights[k + before]*passed[k] - weights[k + after]*passed[k + step];
+                const size_t k = first + i;
+                given[k] += before[k]*passed[k] - after[k]*passed_next[k];
             }
     }
 }
@@ -148,6 +148,8 @@ static void approach(gradient_list *g, size_t n, ptrdiff_t width, float *rest)
     const float *right = g->right + MARGIN, *below = g->below + MARGIN, *scale = g->scale + MARGIN,
                 *self = g->self + MARGIN;
     float *step = g->step + MARGIN, *found = g->found + MARGIN;
+    const float *left = right - 1, *above = below - width;
+    const float *step_right = step + 1, *step_left = step - 1, *step_below = step + width, *step_above = step - width;
     const float middle = 0.5f*(MOST_EIGENVALUE + LEAST_EIGENVALUE),
                 half = 0.5f*(MOST_EIGENVALUE - LEAST_EIGENVALUE);
     float ratio = half/middle, forth = 1/middle, on = 0;
@@ -161,10 +163,10 @@ static void approach(gradient_list *g, size_t n, ptrdiff_t width, float *rest)
             }
         for (size_t first = 0; first < n; first += BLOCK) EACH_LANE(i)
             {
-                const ptrdiff_t k = (ptrdiff_t)(first + i);
+                const size_t k = first + i;
                 const float s = step[k];
-                rest[k] -= self[k]*s + (right[k]*(s - step[k + 1]) + right[k - 1]*(s - step[k - 1])) +
-                           (below[k]*(s - step[k + width]) + below[k - width]*(s - step[k - width]));
+                rest[k] -= self[k]*s + (right[k]*(s - step_right[k]) + left[k]*(s - step_left[k])) +
+                           (below[k]*(s - step_below[k]) + above[k]*(s - step_above[k]));
             }
         const float next = 1/(2*middle/half - ratio);
         on = next*ratio;
@@ -176,18 +178,17 @@ static void approach(gradient_list *g, size_t n, ptrdiff_t width, float *rest)
 static void fit(gradient_list *g, size_t width, size_t height, vector_array *light)
 {
     const size_t n = width*height;
-    const ptrdiff_t row = (ptrdiff_t)width;
-    const float *right = g->right + MARGIN, *below = g->below + MARGIN, *found = g->found + MARGIN,
-                *self = g->self + MARGIN;
+    const float *right = g->right + MARGIN, *left = right - 1, *below = g->below + MARGIN, *above = below - width;
+    const float *found = g->found + MARGIN, *self = g->self + MARGIN;
     float *scale = g->scale + MARGIN, *const channels[] = {light->x, light->y, light->z};
     for (size_t first = 0; first < n; first += BLOCK) EACH_LANE(i)
         {
-            const ptrdiff_t k = (ptrdiff_t)(first + i);
-            scale[k] = 1/(self[k] + (right[k] + right[k - 1]) + (below[k] + below[k - row]));
+            const size_t k = first + i;
+            scale[k] = 1/(self[k] + (right[k] + left[k]) + (below[k] + above[k]));
         }
     for (int c = 0; c < 3; c++) {
         float *channel = channels[c];
-        approach(g, n, row, g->given[c] + MARGIN);
+        approach(g, n, (ptrdiff_t)width, g->given[c] + MARGIN);
         for (size_t first = 0; first < n; first += BLOCK) EACH_LANE(i) channel[first + i] += found[first + i];
     }
 }
