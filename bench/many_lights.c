@@ -1,14 +1,15 @@
 /* many_lights.c: what a picture with many lights costs: 10 to 10^5 emitting triangles of the same area in all.
  *
- *     many_lights [--csv FILE] [--quick]
+ *     many_lights [--meshes] [--csv FILE] [--quick]
  *
  * A hall of 10 x 10 m and 4 m high with balls on its floor; the triangles float anywhere above 2 m and face anywhere,
- * and the camera looks down below them, so that all noise comes from light that was chosen.  256 x 256 pixels, direct
- * light, one thread.  The error is the root of half the mean square difference of two pictures over their mean; the
+ * and the camera looks down below them, so that all noise comes from light that was chosen.  With --meshes they are ten
+ * lamps of that kind, in ever more triangles.  256 x 256 pixels, direct light, one thread.  The error is the root of half the mean square difference of two pictures over their mean; the
  * time, CPU time to an error of 2 % by the 1/sqrt(N) law.  `building` is the acceleration structure and the tables of
  * lights.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -26,29 +27,48 @@ static float uniform(uint32_t i, uint32_t k, float low, float high)
     return low + (high - low)*fraction(hash_pair(i, k));
 }
 
-static void add_lights(scene *s, uint32_t n)
+/* The corners of lamp i, floating anywhere and facing anywhere. */
+static void place_lamp(uint32_t i, float size, real3 corners[3])
 {
-    const size_t glow = add_material(s, "lambert kd=0", 20);
-    mesh m = {.n_vertices = 3*n, .n_triangles = n, .material = glow};
-    m.positions = allocate(m.n_vertices, sizeof *m.positions);
-    m.triangles = allocate(m.n_triangles, sizeof *m.triangles);
-    const float size = ksqrt(2/(float)n);
-    for (uint32_t i = 0; i < n; i++) {
-        const real3 center = make3(uniform(i, 0, -4.9f, 4.9f), uniform(i, 1, 2, 3.9f), uniform(i, 2, -4.9f, 4.9f));
-        const float cos = uniform(i, 3, -1, 1), sin = ksqrt(1 - cos*cos);
-        const real2 azimuth = kcossin_turn(uniform(i, 4, 0, 1));
-        const frame f = frame_of_normal(make3(sin*azimuth.x, cos, sin*azimuth.y));
-        const real3 corners[3] = {center, madd3(center, size, f.t), madd3(center, size, f.b)};
-        for (uint32_t k = 0; k < 3; k++) {
-            const float corner[3] = {corners[k].x, corners[k].y, corners[k].z};
-            memcpy(m.positions[3*i + k], corner, sizeof corner);
-            m.triangles[i][k] = 3*i + k;
+    const real3 center = make3(uniform(i, 0, -4.9f, 4.9f), uniform(i, 1, 2, 3.9f), uniform(i, 2, -4.9f, 4.9f));
+    const float cos = uniform(i, 3, -1, 1), sin = ksqrt(1 - cos*cos);
+    const real2 azimuth = kcossin_turn(uniform(i, 4, 0, 1));
+    const frame f = frame_of_normal(make3(sin*azimuth.x, cos, sin*azimuth.y));
+    corners[0] = center;
+    corners[1] = madd3(center, size, f.t);
+    corners[2] = madd3(center, size, f.b);
+}
+
+/* Cuts a triangle into cuts^2, which go to the end of the mesh. */
+static void add_pieces(mesh *m, const real3 corners[3], uint32_t cuts)
+{
+    const real3 edge1 = sub3(corners[1], corners[0]), edge2 = sub3(corners[2], corners[0]);
+    for (uint32_t row = 0; row <= cuts; row++)
+        for (uint32_t column = 0; column + row <= cuts; column++) {
+            const uint32_t here = (uint32_t)m->n_vertices++, above = here + cuts - row + 1;
+            const uint32_t lower[3] = {here, here + 1, above}, upper[3] = {here + 1, above + 1, above};
+            const real3 at = madd3(madd3(corners[0], (float)column/(float)cuts, edge1), (float)row/(float)cuts, edge2);
+            const float position[3] = {at.x, at.y, at.z};
+            memcpy(m->positions[here], position, sizeof position);
+            if (column + row < cuts) memcpy(m->triangles[m->n_triangles++], lower, sizeof lower);
+            if (column + row + 1 < cuts) memcpy(m->triangles[m->n_triangles++], upper, sizeof upper);
         }
+}
+
+static void add_lights(scene *s, uint32_t n_lamps, uint32_t cuts)
+{
+    mesh m = {.material = add_material(s, "lambert kd=0", 20)};
+    m.positions = allocate((size_t)n_lamps*(cuts + 1)*(cuts + 2)/2, sizeof *m.positions);
+    m.triangles = allocate((size_t)n_lamps*cuts*cuts, sizeof *m.triangles);
+    for (uint32_t i = 0; i < n_lamps; i++) {
+        real3 corners[3];
+        place_lamp(i, ksqrt(2/(float)n_lamps), corners);
+        add_pieces(&m, corners, cuts);
     }
     add_mesh(s, &m);
 }
 
-static scene *hall(uint32_t n_lights)
+static scene *hall(uint32_t n_lamps, uint32_t cuts)
 {
     scene *s = scene_create();
     if (!s) check(FACET_NO_MEMORY, "scene");
@@ -60,7 +80,7 @@ static scene *hall(uint32_t n_lights)
         const sphere ball = {{uniform(i, 6, -3, 3), radius, uniform(i, 7, -4, 2)}, radius, grey};
         check(scene_add_sphere(s, &ball, NULL), "sphere");
     }
-    add_lights(s, n_lights);
+    add_lights(s, n_lamps, cuts);
     const float cos = 0.8191520f, sin = 0.5735764f; /* looks down by 35 degrees, and sees 45 */
     camera cam = {.name = allocate(2, 1),
                   .to_world = {{1, 0, 0, 0}, {0, cos, sin, 1.8f}, {0, -sin, cos, 4.9f}},
@@ -85,9 +105,10 @@ static render_result picture(const scene *s, uint32_t spp, uint32_t seed)
     return result;
 }
 
-static void measure(uint32_t n, uint32_t spp, FILE *csv)
+static void measure(uint32_t n_lamps, uint32_t cuts, uint32_t spp, FILE *csv)
 {
-    scene *s = hall(n);
+    const uint32_t n = n_lamps*cuts*cuts;
+    scene *s = hall(n_lamps, cuts);
     render_result a = picture(s, spp, 1), b = picture(s, spp, 2);
     const float *p = a.picture.pixels, *q = b.picture.pixels;
     const size_t n_values = 3*a.picture.width*a.picture.height;
@@ -112,17 +133,24 @@ int main(int argc, char **argv)
 {
     FILE *csv = NULL;
     uint32_t spp = 64;
+    bool has_meshes = false;
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "--quick") == 0) spp = 4;
+        else if (strcmp(argv[i], "--meshes") == 0) has_meshes = true;
         else if (strcmp(argv[i], "--csv") == 0 && i + 1 < argc && (csv = fopen(argv[++i], "w")))
             fprintf(csv, "lights,mean,error_of_a_sample,ns_per_path,seconds_to_2_percent,building\n");
         else {
-            fprintf(stderr, "usage: many_lights [--csv FILE] [--quick]\n");
+            fprintf(stderr, "usage: many_lights [--meshes] [--csv FILE] [--quick]\n");
             return 2;
         }
     }
     printf("%8s %8s %9s %9s %11s %11s\n", "lights", "mean", "error of", "ns a path", "s to 2 %", "building, s");
     printf("%8s %8s %9s\n", "", "", "a sample");
-    for (uint32_t n = 10; n <= 100000; n *= 10) measure(n, spp, csv);
+    if (has_meshes) {
+        const uint32_t cuts[] = {1, 3, 10, 32, 100};
+        for (size_t i = 0; i < sizeof cuts/sizeof *cuts; i++) measure(10, cuts[i], spp, csv);
+    } else {
+        for (uint32_t n = 10; n <= 100000; n *= 10) measure(n, 1, spp, csv);
+    }
     return csv && fclose(csv) != 0 ? 4 : 0;
 }

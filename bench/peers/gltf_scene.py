@@ -93,7 +93,7 @@ def local_matrix(node):
 def walk(document, blobs, index, parent, scene):
     node = document["nodes"][index]
     to_world = parent @ local_matrix(node)
-    if "camera" in node:
+    if node.get("camera") == 0:
         scene.camera_to_world = to_world
         scene.yfov = document["cameras"][node["camera"]]["perspective"]["yfov"]
     for primitive in document["meshes"][node["mesh"]]["primitives"] if "mesh" in node else []:
@@ -126,8 +126,9 @@ def material(document, m, folder):
         return os.path.join(folder, document["images"][source]["uri"])
 
     if "baseColorTexture" in pbr:
-        result.textures = {"base": file_of(pbr["baseColorTexture"]),
-                           "rough_metal": file_of(pbr["metallicRoughnessTexture"]), "normal": file_of(m["normalTexture"])}
+        given = {"base": pbr.get("baseColorTexture"), "rough_metal": pbr.get("metallicRoughnessTexture"),
+                 "normal": m.get("normalTexture")}
+        result.textures = {name: file_of(texture) for name, texture in given.items() if texture}
     elif "FACET_materials_bsdf" in extensions:
         kd = extensions["FACET_materials_bsdf"]["kd"]
         result.diffuse = tuple(kd) if isinstance(kd, list) else (kd,)*3
