@@ -213,12 +213,22 @@ static void walk_light_tree(const light_tree *tree, size_t n, light_receivers to
     }
 }
 
+static inline int is_of_tree(light_choices c, size_t i, uint32_t n_lights)
+{
+    return (c.probability[i] > 0) & (c.which[i] < n_lights);
+}
+
 static void rate_light_tree(const light_tree *tree, uint32_t n_lights, size_t n, light_receivers to, light_choices c)
 {
-    for (size_t i = 0; i < n; i++) {
-        if (!(c.probability[i] > 0 && c.which[i] < n_lights)) continue;
-        const light_receiver at = receiver_at(to, i);
-        c.probability[i] = (float)light_walk_probability(tree, &at, (double)at.weight, c.which[i]);
+    for (size_t first = 0; first < n; first += BLOCK) {
+        const size_t end = n - first < BLOCK ? n : first + BLOCK;
+        for (size_t i = first; i < end; i++)
+            if (is_of_tree(c, i, n_lights)) expect_light(tree, c.which[i]);
+        for (size_t i = first; i < end; i++) {
+            if (!is_of_tree(c, i, n_lights)) continue;
+            const light_receiver at = receiver_at(to, i);
+            c.probability[i] = light_tree_share(tree, &at, c.which[i]);
+        }
     }
 }
 

@@ -58,6 +58,13 @@ static inline void expect_light_node(const light_node *node)
     for (size_t at = 0; at < sizeof *node; at += 64) __builtin_prefetch((const char *)node + at);
 }
 
+/* ... for the node that a light hangs on. */
+static inline void expect_light(const light_tree *tree, uint32_t light)
+{
+    const uint32_t place = tree->place[light];
+    if (place != LIGHT_NODE_LEAF) expect_light_node(&tree->nodes[place/LIGHT_NODE_WIDTH]);
+}
+
 /* Draws a child for a point by *u in [0,1), of which it leaves the rest; its probability, 0 where all prove dark.  The
  * ends of the children's shares are counted rather than searched, since no processor foresees where a search stops. */
 static inline double light_node_draw(const light_node *node, const light_receiver *to, double *u, uint32_t *child)
@@ -78,22 +85,14 @@ static inline double light_node_draw(const light_node *node, const light_receive
     return (double)(weights[k]/sum);
 }
 
-/* light_tree_probability, for loops that know the sum of the weights of the top's children. */
-static inline double light_walk_probability(const light_tree *tree, const light_receiver *to, double sum_of_top,
-                                            uint32_t light)
+/* About the probability with which a light is drawn for a point that knows the tree's weight: its own share of that,
+ * without the way down. */
+static inline float light_tree_share(const light_tree *tree, const light_receiver *to, uint32_t light)
 {
-    enum { WIDTH = LIGHT_NODE_WIDTH };
-    uint32_t place = tree->place[light];
-    if (place == LIGHT_NODE_LEAF) return 0;
-    double probability = 1;
-    for (; place >= tree->n_top; place = tree->nodes[place/WIDTH].parent) {
-        float weights[WIDTH];
-        const float sum = light_node_weigh(&tree->nodes[place/WIDTH], to, weights), weight = weights[place%WIDTH];
-        if (!(weight > 0)) return 0;
-        probability *= (double)(weight/sum);
-    }
-    const float weight = light_child_weight(&tree->nodes[place/WIDTH], place%WIDTH, *to);
-    return weight > 0 ? probability*((double)weight/sum_of_top) : 0;
+    const uint32_t place = tree->place[light];
+    if (place == LIGHT_NODE_LEAF || !(to->weight > 0)) return 0;
+    const light_node *node = &tree->nodes[place/LIGHT_NODE_WIDTH];
+    return kmin(light_child_weight(node, place%LIGHT_NODE_WIDTH, *to)/to->weight, 1);
 }
 
 #ifdef __cplusplus

@@ -347,6 +347,11 @@ void light_set_rate(const light_set *set, size_t n, light_receivers to, light_ch
     }
 }
 
+bool light_set_rates_exactly(const light_set *set)
+{
+    return set->n_emitters <= MOST_WEIGHED;
+}
+
 /* A block of no more than LOOP_LANES points. */
 static void place_block(const light_set *set, size_t n, vectors from, light_choices c, uint32_t *const u[3],
                         light_samples s)

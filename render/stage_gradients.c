@@ -15,6 +15,8 @@
  * nothing were in the way, and V whether so, the parts of C and C' in each other's estimates are C/(C + C') and
  * C'/(C + C'), and what p passes on is
  *     m = V_p C + C/(C + C') (V_q C' - V_p C) = (V_p + V_q) C C'/(C + C').
+ * Both hold the weight of a light that scattered rays could have found, by the rates at which p and q choose the lamp;
+ * any rates would do, as long as both pixels take the same.
  *
  * The light of all pixels of a tile is then that which fits best:
  *     sum of w_p (x_p - C_p)^2 + sum over neighbours of w_pq (x_q - x_p - difference)^2,
@@ -83,10 +85,18 @@ static void weigh_pixels(gradient_list *g, const vertex_list *v)
     }
 }
 
+/* The weight of what a light brings, beside scattered rays, by the rate at which it is chosen, over that by the
+ * probability of the choice. */
+static float weight_by_rate(const vertex_list *v, uint32_t k, float probability)
+{
+    const float rate = v->light.probability[k], pdf = v->light.pdf[k], rival = v->light.is_delta[k] ? 0 : v->pdf[k];
+    return rate > 0 ? power_heuristic(pdf*(rate/probability), rival)/power_heuristic(pdf, rival) : 0;
+}
+
 void gradient_of_first_lights(path_batch *batch, const path_context *c)
 {
     gradient_list *g = &batch->gradients;
-    const vertex_list *v = &batch->vertex_lists[0];
+    vertex_list *v = &batch->vertex_lists[0];
     memset(g->lamp, 0, sizeof g->lamp);
     memset(g->lamp_probability, 0, sizeof g->lamp_probability);
     memset(&g->brought, 0, sizeof g->brought);
@@ -105,6 +115,14 @@ void gradient_of_first_lights(path_batch *batch, const path_context *c)
         for (int i = 0; i < 2; i++) g->lamp_u[i][slot] = v->u[i + 1][k];
         set3(&g->brought, slot, light);
         g->is_lit[slot] = v->keeps[k];
+    }
+    if (c->settings->strategy != STRATEGY_MIS || light_set_rates_exactly(c->lights)) return;
+    light_set_rate(c->lights, v->n, receivers_of(&v->position, &v->receiver), choices_of(&v->light));
+    for (uint32_t k = 0; k < v->n; k++) {
+        const uint32_t slot = v->slot[k];
+        const float probability = g->lamp_probability[slot];
+        if (!(probability > 0)) continue;
+        set3(&g->brought, slot, scale3(weight_by_rate(v, k, probability), get3(&g->brought, slot)));
     }
 }
 
