@@ -47,7 +47,8 @@ static void add_pieces(mesh *m, const real3 corners[3], uint32_t cuts)
         for (uint32_t column = 0; column + row <= cuts; column++) {
             const uint32_t here = (uint32_t)m->n_vertices++, above = here + cuts - row + 1;
             const uint32_t lower[3] = {here, here + 1, above}, upper[3] = {here + 1, above + 1, above};
-            const real3 at = madd3(madd3(corners[0], (float)column/(float)cuts, edge1), (float)row/(float)cuts, edge2);
+            const real3 at = madd3(madd3(corners[0], (float)column/(float)cuts, edge1), (float)row/(float)cuts,
+                                   edge2);
             const float position[3] = {at.x, at.y, at.z};
             memcpy(m->positions[here], position, sizeof position);
             if (column + row < cuts) memcpy(m->triangles[m->n_triangles++], lower, sizeof lower);

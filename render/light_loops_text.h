@@ -227,7 +227,7 @@ static void rate_light_tree(const light_tree *tree, uint32_t n_lights, size_t n,
         for (size_t i = first; i < end; i++) {
             if (!is_of_tree(c, i, n_lights)) continue;
             const light_receiver at = receiver_at(to, i);
-            c.probability[i] = light_tree_share(tree, &at, c.which[i]);
+            c.probability[i] = light_tree_rate(tree, &at, c.which[i]);
         }
     }
 }

@@ -85,12 +85,31 @@ static inline double light_node_draw(const light_node *node, const light_receive
     return (double)(weights[k]/sum);
 }
 
-/* About the probability with which a light is drawn for a point that knows the tree's weight: its own share of that,
- * without the way down. */
-static inline float light_tree_share(const light_tree *tree, const light_receiver *to, uint32_t light)
+/* light_tree_probability for a point that knows the sum of the weights of the top's children. */
+static inline double light_walk_probability(const light_tree *tree, const light_receiver *to, double sum_of_top,
+                                            uint32_t light)
+{
+    enum { WIDTH = LIGHT_NODE_WIDTH };
+    uint32_t place = tree->place[light];
+    if (place == LIGHT_NODE_LEAF) return 0;
+    double probability = 1;
+    for (; place >= tree->n_top; place = tree->nodes[place/WIDTH].parent) {
+        float weights[WIDTH];
+        const float sum = light_node_weigh(&tree->nodes[place/WIDTH], to, weights), weight = weights[place%WIDTH];
+        if (!(weight > 0)) return 0;
+        probability *= (double)(weight/sum);
+    }
+    const float weight = light_child_weight(&tree->nodes[place/WIDTH], place%WIDTH, *to);
+    return weight > 0 ? probability*((double)weight/sum_of_top) : 0;
+}
+
+/* The same, but that for matte surfaces, to which nodes look like the sum of their lights, it is about that: the light's
+ * own share of the tree's weight, without the way down. */
+static inline float light_tree_rate(const light_tree *tree, const light_receiver *to, uint32_t light)
 {
     const uint32_t place = tree->place[light];
     if (place == LIGHT_NODE_LEAF || !(to->weight > 0)) return 0;
+    if (to->peak > 0.1f*to->broad) return (float)light_walk_probability(tree, to, (double)to->weight, light);
     const light_node *node = &tree->nodes[place/LIGHT_NODE_WIDTH];
     return kmin(light_child_weight(node, place%LIGHT_NODE_WIDTH, *to)/to->weight, 1);
 }

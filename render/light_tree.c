@@ -60,15 +60,5 @@ double light_tree_draw(const light_tree *tree, const light_receiver *to, double 
 
 double light_tree_probability(const light_tree *tree, const light_receiver *to, uint32_t light)
 {
-    uint32_t place = tree->place[light];
-    if (place == LIGHT_NODE_LEAF) return 0;
-    double probability = 1;
-    for (; place >= tree->n_top; place = tree->nodes[place/WIDTH].parent) {
-        float weights[WIDTH];
-        const float sum = light_node_weigh(&tree->nodes[place/WIDTH], to, weights), weight = weights[place%WIDTH];
-        if (!(weight > 0)) return 0;
-        probability *= (double)(weight/sum);
-    }
-    const float weight = light_child_weight(&tree->nodes[place/WIDTH], place%WIDTH, *to);
-    return weight > 0 ? probability*((double)weight/weight_of(tree, to)) : 0;
+    return light_walk_probability(tree, to, weight_of(tree, to), light);
 }

@@ -47,7 +47,7 @@ typedef struct render_loops {
      * LIGHT_DISTANT, by the numbers c.rest.  The receivers get the tree's weight. */
     void (*walk_light_tree)(const light_tree *tree, size_t n, light_receivers to, const float *distant,
                             light_choices c);
-    /* light_tree_share of the tree's lights, its n_lights, among c.which, where c.probability is not 0. */
+    /* light_tree_rate of the tree's lights, its n_lights, among c.which, where c.probability is not 0. */
     void (*rate_light_tree)(const light_tree *tree, uint32_t n_lights, size_t n, light_receivers to, light_choices c);
     /* For each of n points one on its triangle, as light_set_sample (lights.h). */
     void (*light)(const light_triangle *const *chosen, const float *probability, size_t n, vectors from,

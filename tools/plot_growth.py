@@ -36,7 +36,8 @@ class Figure(NamedTuple):
 FIGURES = [
     Figure("lights", [("epyc-2vcpu/many_lights_by_power.csv", "by power", "#c0392b"),
                       ("epyc-2vcpu-avx2/many_lights_alone.csv", "tree", "#1f6fb2"),
-                      ("epyc-2vcpu-avx2/many_lights.csv", "shared", "#27864a")], (1, 5), (-2, 3)),
+                      ("epyc-2vcpu-avx2/many_lights.csv", "shared", "#27864a"),
+                      ("epyc-2vcpu-avx2/many_lights_meshes.csv", "ten lamps", "#8e5ea2")], (1, 5), (-2, 3)),
     Figure("triangles", [("epyc-2vcpu/many_triangles.csv", "alone", "#1f6fb2"),
                          ("epyc-2vcpu-avx2/many_triangles.csv", "shared", "#27864a")], (4, 7), (1, 4)),
 ]
