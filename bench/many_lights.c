@@ -4,9 +4,9 @@
  *
  * A hall of 10 x 10 m and 4 m high with balls on its floor; the triangles float anywhere above 2 m and face anywhere,
  * and the camera looks down below them, so that all noise comes from light that was chosen.  With --meshes they are ten
- * lamps of that kind, in ever more triangles.  256 x 256 pixels, direct light, one thread.  The error is the root of half the mean square difference of two pictures over their mean; the
- * time, CPU time to an error of 2 % by the 1/sqrt(N) law.  `building` is the acceleration structure and the tables of
- * lights.
+ * lamps of that kind, in ever more triangles.  256 x 256 pixels, direct light, one thread.  The error is the root of
+ * half the mean square difference of two pictures over their mean; the time, CPU time to an error of 2 % by the
+ * 1/sqrt(N) law.  `building` is the acceleration structure and the tables of lights.
  * SPDX-License-Identifier: MIT */
 #include <math.h>
 #include <stdbool.h>

@@ -103,8 +103,8 @@ static inline double light_walk_probability(const light_tree *tree, const light_
     return weight > 0 ? probability*((double)weight/sum_of_top) : 0;
 }
 
-/* The same, but that for matte surfaces, to which nodes look like the sum of their lights, it is about that: the light's
- * own share of the tree's weight, without the way down. */
+/* The same, but that for matte surfaces, to which nodes look like the sum of their lights, it is about that: the share
+ * that the light itself has of the tree's weight, without the way down. */
 static inline float light_tree_rate(const light_tree *tree, const light_receiver *to, uint32_t light)
 {
     const uint32_t place = tree->place[light];

@@ -58,8 +58,8 @@ typedef struct light_choices {
 void light_set_choose(const light_set *set, size_t n, light_receivers to, uint32_t *const u[3], light_choices c);
 
 /* The probability with which light_set_choose, which has been called for these receivers, chooses the lights c.which,
- * in place of one that is not 0.  For matte surfaces under many lights it is about that, and the same whatever was chosen,
- * which takes a fraction of the time. */
+ * in place of one that is not 0.  For matte surfaces under many lights it is about that, and the same whatever was
+ * chosen, which takes a fraction of the time. */
 void light_set_rate(const light_set *set, size_t n, light_receivers to, light_choices c);
 bool light_set_rates_exactly(const light_set *set);
 
