@@ -29,7 +29,7 @@ typedef struct render_loops {
     void (*nearest)(const linear_scene *s, size_t n, rays r, hits h);
     /* blocked[i]: whether anything lies on ray i. */
     void (*blocked)(const linear_scene *s, size_t n, rays r, uint32_t *blocked);
-    /* The group's three numbers for n streams, as 32-bit fractions. */
+    /* The group's three numbers for n streams, as 32-bit fractions; NULL: not asked for. */
     void (*points)(const sampler *s, size_t n, const uint32_t *pixel, const uint32_t *index, uint32_t group,
                    uint32_t *const u[3]);
     /* sky_place of n directions. */

@@ -139,31 +139,17 @@ static void points(const sampler *given, size_t n, const uint32_t *pixel, const 
 {
     const sampler s = *given;
     for (size_t first = 0; first < n; first += BLOCK) {
-        uint32_t seed[BLOCK], place[BLOCK], third[BLOCK];
-        uint32_t *restrict const x = u[0] + first, *restrict const y = u[1] + first, *restrict const z = u[2] + first;
+        uint32_t seed[BLOCK], place[BLOCK];
         EACH_LANE(i) seed[i] = seed_for(pixel[first + i], group);
         if (s.kind == SAMPLER_RANDOM) {
-            EACH_LANE(i)
-            {
-                x[i] = random_fraction(index[first + i], seed[i], 0);
-                y[i] = random_fraction(index[first + i], seed[i], 1);
-                z[i] = random_fraction(index[first + i], seed[i], 2);
-            }
+            for (uint32_t k = 0; k < 3; k++)
+                if (u[k]) EACH_LANE(i) u[k][first + i] = random_fraction(index[first + i], seed[i], k);
             continue;
         }
-        EACH_LANE(i)
-        {
-            place[i] = shuffled_index(index[first + i], seed[i], s.index_mask);
-            third[i] = 0;
-        }
-        for (uint32_t bit = 0; bit < 32 && s.index_mask >> bit; bit++)
-            EACH_LANE(i) third[i] = sobol_third_digit(third[i], place[i], bit);
-        EACH_LANE(i)
-        {
-            x[i] = scrambled_fraction(place[i], seed[i], 0);
-            y[i] = scrambled_fraction(sobol_second(place[i]), seed[i], 1);
-            z[i] = scrambled_fraction(third[i], seed[i], 2);
-        }
+        EACH_LANE(i) place[i] = shuffled_index(index[first + i], seed[i], s.index_mask);
+        if (u[0]) EACH_LANE(i) u[0][first + i] = scrambled_fraction(place[i], seed[i], 0);
+        if (u[1]) EACH_LANE(i) u[1][first + i] = scrambled_fraction(sobol_second(place[i]), seed[i], 1);
+        if (u[2]) EACH_LANE(i) u[2][first + i] = scrambled_fraction(sobol_third(place[i]), seed[i], 2);
     }
 }
 

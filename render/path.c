@@ -65,7 +65,7 @@ void path_batch_run(path_batch *batch, const path_context *c, tile where, uint32
         path_list *list = &batch->lists[event & 1], *next = &batch->lists[~event & 1];
         const uint32_t group = 1 + event*GROUPS_PER_EVENT;
         if (c->has_mixed_surfaces || event + 1 >= ROULETTE_START) {
-            uint32_t *const u[3] = {batch->chance[0], batch->chance[1], batch->chance[2]};
+            uint32_t *const u[3] = {c->has_mixed_surfaces ? batch->chance[0] : NULL, batch->chance[1], NULL};
             render_loops_chosen()->points(&c->sampler, list->n, list->pixel, list->index, group + GROUP_CHANCE, u);
         }
         stage_trace(batch, c, list, event == 0, counts);

@@ -20,17 +20,24 @@ static inline uint32_t sobol_second(uint32_t index)
     return index ^ index >> 16;
 }
 
-/* The third, of x^2 + x + 1 (m = 1, 3): v_k = v_{k-1} ^ v_{k-2} ^ v_{k-2} >> 2 before reversal (Joe and Kuo 2008): what
- * bit k of the index adds. */
-static const uint32_t sobol_third_columns[32] = {
-    0x00000001u, 0x00000003u, 0x00000006u, 0x00000009u, 0x00000017u, 0x0000003au, 0x00000071u, 0x000000a3u,
-    0x00000116u, 0x00000339u, 0x00000677u, 0x000009aau, 0x00001601u, 0x00003903u, 0x00007706u, 0x0000aa09u,
-    0x00010117u, 0x0003033au, 0x00060671u, 0x000909a3u, 0x00171616u, 0x003a3939u, 0x00717777u, 0x00a3aaaau,
-    0x01170001u, 0x033a0003u, 0x06710006u, 0x09a30009u, 0x16160017u, 0x3939003au, 0x77770071u, 0xaaaa00a3u};
-
-static inline uint32_t sobol_third_digit(uint32_t digits, uint32_t index, uint32_t bit)
+/* The third, of p = x^2 + x + 1 (m = 1, 3; Joe and Kuo 2008): bit k of the index adds x^k, where p stands for a step by
+ * two digits.  Hence the digits are those of the index, as a polynomial modulo 2, in the base p.  Powers of p by powers
+ * of two have three terms as well, and the quotient by x^16 + x^8 + 1 is what lies above x^16 and, 16 below, above x^24;
+ * then its halves are divided by x^8 + x^4 + 1, and so on. */
+static inline uint32_t sobol_third(uint32_t index)
 {
-    return digits ^ ((0u - (index >> bit & 1u)) & sobol_third_columns[bit]);
+    uint32_t x = index ^ (index >> 8 & 0x00ff0000u), quotient = x >> 16;
+    x ^= quotient ^ (quotient << 8 & 0x0000ff00u);
+    x ^= x >> 4 & 0x0f000f00u;
+    quotient = x >> 8 & 0x00ff00ffu;
+    x ^= quotient ^ (quotient << 4 & 0x00f000f0u);
+    x ^= x >> 2 & 0x30303030u;
+    quotient = x >> 4 & 0x0f0f0f0fu;
+    x ^= quotient ^ (quotient << 2 & 0x0c0c0c0cu);
+    x ^= x >> 1 & 0x44444444u;
+    quotient = x >> 2 & 0x33333333u;
+    x ^= quotient ^ (quotient << 1 & 0x22222222u);
+    return x ^ (x >> 1 & 0x55555555u); /* the second number, 3, has both digits */
 }
 
 static inline uint32_t reverse_bits(uint32_t x)
