@@ -24,6 +24,12 @@ struct vertex_list;
 struct gradient_list;
 struct vector_array;
 
+/* Of elements of 32 bits. */
+typedef struct packed_array {
+    const void *from;
+    void *to;
+} packed_array;
+
 typedef struct render_loops {
     const char *name;
     void (*nearest)(const linear_scene *s, size_t n, rays r, hits h);
@@ -32,6 +38,8 @@ typedef struct render_loops {
     /* The group's three numbers for n streams, as 32-bit fractions; NULL: not asked for. */
     void (*points)(const sampler *s, size_t n, const uint32_t *pixel, const uint32_t *index, uint32_t group,
                    uint32_t *const u[3]);
+    /* Copies those of n elements for which keeps is 1, not 0, one after the other: their number. */
+    uint32_t (*pack)(uint32_t n, const uint32_t *keeps, size_t n_arrays, const packed_array *arrays);
     /* sky_place of n directions. */
     void (*find_sky)(size_t n, vectors direction, float *u, float *v);
     /* Vertices from `first`, the first of a block, on: those in the block's hits; wi: wo in world space. */

@@ -62,16 +62,17 @@ void vertices_evaluate(vertex_list *v)
     }
 }
 
-/* Those that are to be traced. */
+/* Those that are to be traced; their rays start at 0. */
 static void collect(shadow_list *s, const vertex_list *v)
 {
-    uint32_t n = 0;
-    for (uint32_t k = 0; k < v->n; k++) {
-        s->vertex[n] = k;
-        copy_ray(&s->ray, n, &v->ray, k);
-        n += v->keeps[k];
-    }
-    s->n = n;
+    const ray_array *from = &v->ray;
+    ray_array *to = &s->ray;
+    packed_array arrays[MOST_PACKED], *end = arrays;
+    pack_vectors(&end, &from->origin, &to->origin);
+    pack_vectors(&end, &from->direction, &to->direction);
+    pack_array(&end, from->t_max, to->t_max);
+    pack_array(&end, from->seed, to->seed);
+    s->n = render_loops_chosen()->pack(v->n, v->keeps, (size_t)(end - arrays), arrays);
 }
 
 void vertices_connect(path_batch *batch, vertex_list *v, const path_context *c, bool is_mis, path_counts *counts)
@@ -82,8 +83,11 @@ void vertices_connect(path_batch *batch, vertex_list *v, const path_context *c, 
     collect(s, v);
     counts->n_shadow_rays += s->n;
     tracer_blocked(c->tracer, s->n, rays_of(&s->ray), s->is_blocked);
-    for (uint32_t j = 0; j < s->n; j++)
-        if (s->is_blocked[j]) v->keeps[s->vertex[j]] = 0;
+    for (uint32_t k = 0, j = 0; k < v->n; k++) {
+        const uint32_t is_traced = v->keeps[k]; /* no branch: no processor foresees what is in the way */
+        v->keeps[k] = is_traced & !s->is_blocked[j];
+        j += is_traced;
+    }
 }
 
 /* Explicit light connection.  [cs500, "Explicit light connection"], corrected: p is a density per solid angle,

@@ -35,7 +35,7 @@ static bool meet(path_batch *batch, const path_list *list, uint32_t i, real3 nor
 {
     feature_list *f = &batch->features;
     const uint32_t slot = list->slot[i];
-    if (list->origin[i] == FROM_CAMERA) f->distance[slot] = batch->t[i];
+    if (list->lobe[i] == 0) f->distance[slot] = batch->t[i];
     if (f->is_known[slot]) return false;
     set3(&f->normal, slot, normal);
     return true;

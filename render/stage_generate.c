@@ -33,7 +33,7 @@ void stage_generate(path_batch *batch, const path_context *c, tile where, uint32
             list->pixel[n] = stream.pixel;
             list->index[n] = stream.index;
             list->eta_scale[n] = 1;
-            list->origin[n] = FROM_CAMERA;
+            list->lobe[n] = 0;
             set3(&list->throughput, n, splat3(1));
             set3(&batch->radiance, n, splat3(0));
         }

@@ -49,7 +49,7 @@ void stage_trace(path_batch *batch, const path_context *c, path_list *list, bool
 /* The weight of light that a scattered ray has met, which a light sample would have had density pdf_light for. */
 static float implicit_weight(const path_context *c, const path_list *list, uint32_t i, float pdf_light)
 {
-    if (list->origin[i] != FROM_LOBE || !(pdf_light > 0)) return 1;
+    if (!is_of_lobe(list, i) || !(pdf_light > 0)) return 1;
     switch (c->settings->strategy) {
     case STRATEGY_EXPLICIT: return 0;
     case STRATEGY_IMPLICIT: return 1;
@@ -84,8 +84,7 @@ static void gather_sky(path_batch *batch, const path_context *c, const path_list
     if (c->keeps_features) feature_of_sky(batch, list, i, radiance);
     if (!(max_of3(radiance) > 0)) return;
     const light_receiver previous = receiver_of(c, list, i);
-    const bool is_lobe = list->origin[i] == FROM_LOBE;
-    const float pdf = is_lobe ? light_set_pdf_of_sky(c->lights, &previous, place) : 0;
+    const float pdf = is_of_lobe(list, i) ? light_set_pdf_of_sky(c->lights, &previous, place) : 0;
     gather(batch, list, i, radiance, implicit_weight(c, list, i, pdf));
 }
 
@@ -104,12 +103,11 @@ static void gather_skies(path_batch *batch, const path_context *c, const path_li
 static void gather_emission(path_batch *batch, const path_context *c, const path_list *list, uint32_t i,
                             const surface *at)
 {
-    if (list->origin[i] == FROM_CAMERA) gather(batch, list, i, at->unlit, 1);
+    if (list->lobe[i] == 0) gather(batch, list, i, at->unlit, 1);
     if (!(max_of3(at->emission) > 0)) return;
     const hit h = hit_at(batch, i);
     const light_receiver previous = receiver_of(c, list, i);
-    const bool is_lobe = list->origin[i] == FROM_LOBE;
-    const float pdf = is_lobe ? light_set_pdf_of_hit(c->lights, &previous, &h, at) : 0;
+    const float pdf = is_of_lobe(list, i) ? light_set_pdf_of_hit(c->lights, &previous, &h, at) : 0;
     gather(batch, list, i, at->emission, implicit_weight(c, list, i, pdf));
 }
 

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: MIT */
 #include "render/stages.h"
 
+#include <math.h>
+
 /* A direction wi for every vertex, with its weight and density; pdf 0: none. */
 static void sample(const path_context *c, vertex_list *v, uint32_t group)
 {
@@ -33,15 +35,15 @@ static void sample(const path_context *c, vertex_list *v, uint32_t group)
     }
 }
 
-static void copy_receiver(receiver_array *to, uint32_t i, const receiver_array *from, uint32_t k)
+static void pack_receivers(packed_array **end, const receiver_array *from, receiver_array *to)
 {
-    copy3(&to->normal, i, &from->normal, k);
-    copy3(&to->mirror, i, &from->mirror, k);
-    to->around[i] = from->around[k];
-    to->broad[i] = from->broad[k];
-    to->peak[i] = from->peak[k];
-    to->width[i] = from->width[k];
-    to->weight[i] = from->weight[k];
+    pack_vectors(end, &from->normal, &to->normal);
+    pack_vectors(end, &from->mirror, &to->mirror);
+    pack_array(end, from->around, to->around);
+    pack_array(end, from->broad, to->broad);
+    pack_array(end, from->peak, to->peak);
+    pack_array(end, from->width, to->width);
+    pack_array(end, from->weight, to->weight);
 }
 
 /* Extends paths by scattered rays, into the next list.  [cs500, "Extend path"]. */
@@ -53,20 +55,22 @@ void stage_scatter(path_batch *batch, const path_context *c, const path_list *li
     if (c->keeps_features)
         for (uint32_t k = 0; k < v->n; k++) feature_of_scattering(batch, list, k);
     render_loops_chosen()->scatter(v, n_events >= ROULETTE_START);
-    const bool has_receivers = light_set_needs_receivers(c->lights);
-    uint32_t n = 0;
-    for (uint32_t k = 0; k < v->n; k++) {
-        copy3(&next->throughput, n, &v->f, k);
-        copy3(&next->previous, n, &v->position, k);
-        if (has_receivers) copy_receiver(&next->receiver, n, &v->receiver, k);
-        copy_ray(&next->ray, n, &v->ray, k);
-        next->slot[n] = v->slot[k];
-        next->pixel[n] = v->pixel[k];
-        next->index[n] = v->index[k];
-        next->eta_scale[n] = v->eta_scale[k];
-        next->pdf_scatter[n] = v->pdf[k];
-        next->origin[n] = v->lobe[k] & FACET_DELTA ? FROM_DELTA : FROM_LOBE;
-        n += v->keeps[k];
+    packed_array arrays[MOST_PACKED], *end = arrays;
+    pack_vectors(&end, &v->f, &next->throughput);
+    pack_vectors(&end, &v->position, &next->previous);
+    pack_vectors(&end, &v->ray.origin, &next->ray.origin);
+    pack_vectors(&end, &v->ray.direction, &next->ray.direction);
+    pack_array(&end, v->ray.seed, next->ray.seed);
+    pack_array(&end, v->slot, next->slot);
+    pack_array(&end, v->pixel, next->pixel);
+    pack_array(&end, v->index, next->index);
+    pack_array(&end, v->eta_scale, next->eta_scale);
+    pack_array(&end, v->pdf, next->pdf_scatter);
+    pack_array(&end, v->lobe, next->lobe);
+    if (light_set_needs_receivers(c->lights)) pack_receivers(&end, &v->receiver, &next->receiver);
+    next->n = render_loops_chosen()->pack(v->n, v->keeps, (size_t)(end - arrays), arrays);
+    for (uint32_t i = 0; i < next->n; i++) {
+        next->ray.t_min[i] = 0;
+        next->ray.t_max[i] = INFINITY;
     }
-    next->n = n;
 }

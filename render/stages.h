@@ -26,8 +26,8 @@ enum { PATHS = TILE_SIZE*TILE_SIZE, ROOM = PATHS + 16 };
 /* An array that begins with a cache line; so do those that follow it. */
 #define LINE_ALIGNED __attribute__((aligned(64)))
 
-/* What sent a ray. */
-typedef enum path_origin { FROM_CAMERA, FROM_DELTA, FROM_LOBE } path_origin;
+/* Arrays that are packed at once. */
+enum { MOST_PACKED = 32 };
 
 typedef struct vector_array {
     float x[ROOM], y[ROOM], z[ROOM];
@@ -55,7 +55,7 @@ typedef struct path_list {
     vector_array previous;   /* where the ray was scattered */
     receiver_array receiver; /* ... if the lights ask for it */
     float pdf_scatter[ROOM]; /* of its direction [1/sr] */
-    uint8_t origin[ROOM];    /* path_origin */
+    uint32_t lobe[ROOM];     /* facet_lobe that sent it, 0: the camera */
     uint32_t n;
 } path_list;
 
@@ -100,8 +100,7 @@ typedef struct vertex_list {
 
 typedef struct shadow_list {
     uint32_t n;
-    LINE_ALIGNED uint32_t vertex[ROOM]; /* f: what the ray brings if nothing is in its way */
-    ray_array ray;
+    LINE_ALIGNED ray_array ray;
     uint32_t is_blocked[ROOM];
 } shadow_list;
 
@@ -193,6 +192,12 @@ static inline vectors vectors_of(vector_array *a)
     return (vectors){a->x, a->y, a->z};
 }
 
+/* Whether a lobe with a density sent the ray of path i, rather than the camera or a mirror. */
+static inline bool is_of_lobe(const path_list *list, uint32_t i)
+{
+    return list->lobe[i] && !(list->lobe[i] & FACET_DELTA);
+}
+
 static inline light_receivers receivers_of(vector_array *position, receiver_array *a)
 {
     return (light_receivers){vectors_of(position),
@@ -248,13 +253,17 @@ static inline void copy3(vector_array *to, uint32_t i, const vector_array *from,
     to->z[i] = from->z[k];
 }
 
-static inline void copy_ray(ray_array *to, uint32_t i, const ray_array *from, uint32_t k)
+/* Appends what pack is to move from the one array to the other, or three of them. */
+static inline void pack_array(packed_array **end, const void *from, void *to)
 {
-    copy3(&to->origin, i, &from->origin, k);
-    copy3(&to->direction, i, &from->direction, k);
-    to->t_min[i] = from->t_min[k];
-    to->t_max[i] = from->t_max[k];
-    to->seed[i] = from->seed[k];
+    *(*end)++ = (packed_array){from, to};
+}
+
+static inline void pack_vectors(packed_array **end, const vector_array *from, vector_array *to)
+{
+    pack_array(end, from->x, to->x);
+    pack_array(end, from->y, to->y);
+    pack_array(end, from->z, to->z);
 }
 
 static inline void add_radiance(path_batch *batch, uint32_t slot, real3 radiance)
