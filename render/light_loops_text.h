@@ -252,51 +252,92 @@ static inline real3 take3(float from[3][BLOCK], size_t i)
     return make3(from[0][i], from[1][i], from[2][i]);
 }
 
-static void load_lights(light_block *b, const light_triangle *const *triangles)
+static inline void load_light(light_block *b, size_t i, const light_triangle *given)
 {
-    for (size_t i = 0; i < BLOCK; i++) {
-        const light_triangle *chosen = triangles[i];
-        put3(b->origin, i, chosen->origin);
-        put3(b->edge1, i, chosen->edge1);
-        put3(b->edge2, i, chosen->edge2);
-        put3(b->normal, i, chosen->normal);
-        put3(b->radiance, i, chosen->radiance);
-        b->area[i] = chosen->area;
-        b->offset[i] = chosen->offset;
-        b->lowest[i] = chosen->lowest;
+    put3(b->origin, i, given->origin);
+    put3(b->edge1, i, given->edge1);
+    put3(b->edge2, i, given->edge2);
+    put3(b->normal, i, given->normal);
+    put3(b->radiance, i, given->radiance);
+    b->area[i] = given->area;
+    b->offset[i] = given->offset;
+    b->lowest[i] = given->lowest;
+}
+
+/* Of which a vector holds all: to[i] = from[which[i]]. */
+static void spread(const float from[PACKED], const uint32_t *which, float to[BLOCK])
+{
+    for (size_t i = 0; i < BLOCK; i += PACKED) pick(from, which + i, to + i);
+}
+
+static void spread3(float from[3][BLOCK], const uint32_t *which, float to[3][BLOCK])
+{
+    for (int k = 0; k < 3; k++) spread(from[k], which, to[k]);
+}
+
+/* The triangles of a block by their places in a list of no more than PACKED. */
+static void spread_lights(light_block *few, const uint32_t *which, light_block *b)
+{
+    spread3(few->origin, which, b->origin);
+    spread3(few->edge1, which, b->edge1);
+    spread3(few->edge2, which, b->edge2);
+    spread3(few->normal, which, b->normal);
+    spread3(few->radiance, which, b->radiance);
+    spread(few->area, which, b->area);
+    spread(few->offset, which, b->offset);
+    spread(few->lowest, which, b->lowest);
+}
+
+/* Points on a block's triangles. */
+static void light_points(light_block *b, size_t first, const float *probability, vectors from, uint32_t *const u[3],
+                         light_samples s)
+{
+    EACH_LANE(i)
+    {
+        const size_t k = first + i;
+        const light_triangle e = {.origin = take3(b->origin, i),
+                                  .edge1 = take3(b->edge1, i),
+                                  .edge2 = take3(b->edge2, i),
+                                  .normal = take3(b->normal, i),
+                                  .area = b->area[i],
+                                  .offset = b->offset[i],
+                                  .lowest = b->lowest[i]};
+        const real2 weights = light_triangle_weights(fraction(u[1][k]), fraction(u[2][k]));
+        const light_triangle_point point = light_triangle_sample(e, make3(from.x[k], from.y[k], from.z[k]), weights);
+        s.direction.x[k] = point.direction.x;
+        s.direction.y[k] = point.direction.y;
+        s.direction.z[k] = point.direction.z;
+        s.target.x[k] = point.target.x;
+        s.target.y[k] = point.target.y;
+        s.target.z[k] = point.target.z;
+        s.radiance.x[k] = b->radiance[0][i];
+        s.radiance.y[k] = b->radiance[1][i];
+        s.radiance.z[k] = b->radiance[2][i];
+        s.pdf[k] = point.pdf*probability[k];
+        s.is_infinite[k] = s.is_delta[k] = 0;
     }
 }
 
-static void light(const light_triangle *const *chosen, const float *probability, size_t n, vectors from,
+static void light(uint32_t n_triangles, const light_triangle *triangles, size_t n, vectors from, light_choices c,
                   uint32_t *const u[3], light_samples s)
+{
+    light_block few, b;
+    for (size_t i = 0; i < n_triangles && i < PACKED; i++) load_light(&few, i, &triangles[i]);
+    for (size_t first = 0; first < n; first += BLOCK) {
+        const uint32_t *which = c.which + first;
+        if (n_triangles <= PACKED) spread_lights(&few, which, &b);
+        else
+            for (size_t i = 0; i < BLOCK; i++) load_light(&b, i, &triangles[which[i]]);
+        light_points(&b, first, c.probability, from, u, s);
+    }
+}
+
+static void light_any(const light_triangle *const *chosen, const float *probability, size_t n, vectors from,
+                       uint32_t *const u[3], light_samples s)
 {
     for (size_t first = 0; first < n; first += BLOCK) {
         light_block b;
-        load_lights(&b, chosen + first);
-        EACH_LANE(i)
-        {
-            const size_t k = first + i;
-            const light_triangle e = {.origin = take3(b.origin, i),
-                                      .edge1 = take3(b.edge1, i),
-                                      .edge2 = take3(b.edge2, i),
-                                      .normal = take3(b.normal, i),
-                                      .area = b.area[i],
-                                      .offset = b.offset[i],
-                                      .lowest = b.lowest[i]};
-            const real2 weights = light_triangle_weights(fraction(u[1][k]), fraction(u[2][k]));
-            const light_triangle_point point = light_triangle_sample(e, make3(from.x[k], from.y[k], from.z[k]),
-                                                                     weights);
-            s.direction.x[k] = point.direction.x;
-            s.direction.y[k] = point.direction.y;
-            s.direction.z[k] = point.direction.z;
-            s.target.x[k] = point.target.x;
-            s.target.y[k] = point.target.y;
-            s.target.z[k] = point.target.z;
-            s.radiance.x[k] = b.radiance[0][i];
-            s.radiance.y[k] = b.radiance[1][i];
-            s.radiance.z[k] = b.radiance[2][i];
-            s.pdf[k] = point.pdf*probability[k];
-            s.is_infinite[k] = s.is_delta[k] = 0;
-        }
+        for (size_t i = 0; i < BLOCK; i++) load_light(&b, i, chosen[first + i]);
+        light_points(&b, first, probability, from, u, s);
     }
 }

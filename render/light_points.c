@@ -366,7 +366,7 @@ static void place_block(const light_set *set, size_t n, vectors from, light_choi
         if (i < n) probability[i] = c.probability[i];
     }
     draw_texels(set, n, c.which, c.rest, texels);
-    render_loops_chosen()->light(chosen, probability, n, from, u, s);
+    render_loops_chosen()->light_any(chosen, probability, n, from, u, s);
     for (size_t i = 0; i < n; i++) {
         if (chosen[i] != &dark || !(probability[i] > 0)) continue;
         light_sample light = sample_other(set, &set->emitters[c.which[i]], make3(from.x[i], from.y[i], from.z[i]),
@@ -379,24 +379,20 @@ static void place_block(const light_set *set, size_t n, vectors from, light_choi
 void light_set_points(const light_set *set, size_t n, vectors from, light_choices chosen, uint32_t *const u[3],
                       light_samples s)
 {
+    if (set->is_plain) {
+        render_loops_chosen()->light(set->n_triangles, set->triangles, n, from, chosen, u, s);
+        return;
+    }
     for (size_t first = 0; first < n; first += LOOP_LANES) {
         const size_t some = n - first < LOOP_LANES ? n - first : LOOP_LANES;
         uint32_t *const numbers[3] = {u[0] + first, u[1] + first, u[2] + first};
-        const light_choices c = choices_from(chosen, first);
-        const vectors at = vectors_from(from, first);
         const light_samples samples = {.direction = vectors_from(s.direction, first),
                                        .target = vectors_from(s.target, first),
                                        .radiance = vectors_from(s.radiance, first),
                                        .pdf = s.pdf + first,
                                        .is_infinite = s.is_infinite + first,
                                        .is_delta = s.is_delta + first};
-        if (!set->is_plain) {
-            place_block(set, some, at, c, numbers, samples);
-            continue;
-        }
-        const light_triangle *triangles[LOOP_LANES];
-        for (size_t i = 0; i < LOOP_LANES; i++) triangles[i] = &set->triangles[c.which[i]];
-        render_loops_chosen()->light(triangles, c.probability, some, at, numbers, samples);
+        place_block(set, some, vectors_from(from, first), choices_from(chosen, first), numbers, samples);
     }
 }
 

@@ -57,9 +57,12 @@ typedef struct render_loops {
                             light_choices c);
     /* light_tree_rate of the tree's lights, its n_lights, among c.which, where c.probability is not 0. */
     void (*rate_light_tree)(const light_tree *tree, uint32_t n_lights, size_t n, light_receivers to, light_choices c);
-    /* For each of n points one on its triangle, as light_set_sample (lights.h). */
-    void (*light)(const light_triangle *const *chosen, const float *probability, size_t n, vectors from,
+    /* For each of n points one on its triangle, c.which of few, as light_set_sample (lights.h). */
+    void (*light)(uint32_t n_triangles, const light_triangle *triangles, size_t n, vectors from, light_choices c,
                   uint32_t *const u[3], light_samples s);
+    /* ... on any triangle. */
+    void (*light_any)(const light_triangle *const *chosen, const float *probability, size_t n, vectors from,
+                      uint32_t *const u[3], light_samples s);
     /* wi to where the density tells what is broad about the scattering; then, with that density in pdf, `broad` of the
      * receivers, and wi to the mirror image; then, with the density there, the rest of the receivers. */
     void (*look_aside)(struct vertex_list *v);

@@ -1,5 +1,7 @@
 /* loops_text.h: the loops of loops.h, compiled once per instruction set: RENDER_LOOPS names the table.
  * SPDX-License-Identifier: MIT */
+#include <string.h>
+
 #include "render/light_node.h"
 #include "render/loops.h"
 #include "render/sampler_point.h"
@@ -12,6 +14,45 @@ enum { BLOCK = LOOP_LANES };
 
 /* Over the elements of a block that are there, in whole vectors. */
 #define EACH_LANE(i) _Pragma("omp simd") for (size_t i = 0; i < BLOCK; i++)
+
+/* ---- Moving elements ----------------------------------------------------------------------------------------- */
+
+/* Elements of 32 bits that are moved together. */
+enum { PACKED = 8 };
+
+/* to[i] = from[places[i]] for all of them. */
+static inline void pick(const void *from, const uint32_t *places, void *to)
+{
+#if defined(__AVX2__)
+    const __m256i all = _mm256_loadu_si256((const __m256i *)from),
+                  lanes = _mm256_loadu_si256((const __m256i *)(const void *)places);
+    _mm256_storeu_si256((__m256i *)to, _mm256_permutevar8x32_epi32(all, lanes));
+#else
+    for (size_t i = 0; i < PACKED; i++) memcpy((char *)to + 4*i, (const char *)from + 4*places[i], 4);
+#endif
+}
+
+static uint32_t pack(uint32_t n, const uint32_t *keeps, size_t n_arrays, const packed_array *arrays)
+{
+    uint32_t places[PATHS] = {0}, begin[PATHS/PACKED], n_kept = 0;
+    for (uint32_t first = 0; first < n; first += PACKED) {
+        const uint32_t end = n - first < PACKED ? n - first : PACKED;
+        uint32_t some = 0;
+        for (uint32_t i = 0; i < end; i++) { /* no branch: no processor foresees what is kept */
+            places[first + some] = i;
+            some += keeps[first + i];
+        }
+        begin[first/PACKED] = n_kept;
+        n_kept += some;
+    }
+    for (size_t k = 0; k < n_arrays; k++) {
+        const char *from = arrays[k].from;
+        char *to = arrays[k].to;
+        for (uint32_t first = 0; first < n; first += PACKED)
+            pick(from + 4*(size_t)first, places + first, to + 4*(size_t)begin[first/PACKED]);
+    }
+    return n_kept;
+}
 
 /* ---- Rays against a list ------------------------------------------------------------------------------------- */
 
@@ -157,47 +198,6 @@ static void points(const sampler *given, size_t n, const uint32_t *pixel, const 
     }
 }
 
-/* ---- Packing ------------------------------------------------------------------------------------------------- */
-
-/* Elements that are moved together; one byte of a word for each says where it comes from. */
-enum { PACKED = 8 };
-
-static inline void pick(const uint32_t *from, uint64_t lanes, uint32_t *to)
-{
-#if defined(__AVX2__)
-    const __m256i places = _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((int64_t)lanes));
-    const __m256i all = _mm256_loadu_si256((const __m256i *)(const void *)from);
-    _mm256_storeu_si256((__m256i *)(void *)to, _mm256_permutevar8x32_epi32(all, places));
-#else
-    for (size_t i = 0; i < PACKED; i++) to[i] = from[lanes >> 8*i & 0xff];
-#endif
-}
-
-static uint32_t pack(uint32_t n, const uint32_t *keeps, size_t n_arrays, const packed_array *arrays)
-{
-    const uint32_t n_groups = (n + PACKED - 1)/PACKED;
-    uint64_t lanes[PATHS/PACKED];
-    uint32_t begin[PATHS/PACKED], n_kept = 0;
-    for (uint32_t g = 0; g < n_groups; g++) {
-        uint64_t places = 0;
-        uint32_t some = 0;
-        for (uint32_t i = 0; i < PACKED; i++) {
-            const uint32_t k = g*PACKED + i, is_kept = k < n ? keeps[k] : 0;
-            places |= (uint64_t)(i*is_kept) << 8*(some & 7);
-            some += is_kept;
-        }
-        lanes[g] = places;
-        begin[g] = n_kept;
-        n_kept += some;
-    }
-    for (size_t k = 0; k < n_arrays; k++) {
-        const uint32_t *from = arrays[k].from;
-        uint32_t *to = arrays[k].to;
-        for (uint32_t g = 0; g < n_groups; g++) pick(from + (size_t)g*PACKED, lanes[g], to + begin[g]);
-    }
-    return n_kept;
-}
-
 /* ---- The table ----------------------------------------------------------------------------------------------- */
 
 #include "render/light_loops_text.h"
@@ -218,6 +218,7 @@ const render_loops RENDER_LOOPS = {.name = RENDER_LOOPS_NAME,
                                    .walk_light_tree = walk_light_tree,
                                    .rate_light_tree = rate_light_tree,
                                    .light = light,
+                                   .light_any = light_any,
                                    .look_aside = look_aside,
                                    .look_at_mirror = look_at_mirror,
                                    .receive = receive,
