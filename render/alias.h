@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include "facet/facet.h"
+#include "render/expect.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -28,7 +29,7 @@ facet_status alias_table_create(const double *weights, uint32_t n, alias_table *
 void alias_table_destroy(alias_table *table);
 
 /* Asks memory for what the next draw by u needs. */
-static inline void alias_table_expect(const alias_table *table, uint32_t u)
+EXPECTING void alias_table_expect(const alias_table *table, uint32_t u)
 {
     __builtin_prefetch(&table->cells[((uint64_t)u*table->n) >> 32]);
 }

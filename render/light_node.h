@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 
+#include "render/expect.h"
 #include "render/light_tree.h"
 
 #ifdef __cplusplus
@@ -53,13 +54,13 @@ static inline float light_node_weigh(const light_node *node, const light_receive
 }
 
 /* Asks memory for a node that is weighed soon. */
-static inline void expect_light_node(const light_node *node)
+EXPECTING void expect_light_node(const light_node *node)
 {
     for (size_t at = 0; at < sizeof *node; at += 64) __builtin_prefetch((const char *)node + at);
 }
 
 /* ... for the node that a light hangs on. */
-static inline void expect_light(const light_tree *tree, uint32_t light)
+EXPECTING void expect_light(const light_tree *tree, uint32_t light)
 {
     const uint32_t place = tree->place[light];
     if (place != LIGHT_NODE_LEAF) expect_light_node(&tree->nodes[place/LIGHT_NODE_WIDTH]);

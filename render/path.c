@@ -16,7 +16,7 @@ path_batch *path_batch_create(const scene *s)
     path_batch *batch = aligned_alloc(64, (sizeof *batch + 63)/64*64);
     if (!batch) return NULL;
     memset(batch, 0, sizeof *batch); /* loops run over whole vectors, over lanes that nothing was put in */
-    batch->n_of_material = malloc((s->n_materials + 1)*sizeof *batch->n_of_material);
+    batch->n_of_material = malloc((s->n_materials + 2)*sizeof *batch->n_of_material);
     if (!batch->n_of_material) {
         free(batch);
         return NULL;

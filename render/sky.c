@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "core/error.h"
+#include "render/expect.h"
 
 static real3 texel_at(const environment *e, size_t x, size_t y)
 {
@@ -179,7 +180,7 @@ void sky_expect_draw(const sky *s, uint32_t u)
 }
 
 /* A texel of interpolation lies in the row above or in that below. */
-static void expect_texel(const sky *s, size_t texel)
+EXPECTING void expect_texel(const sky *s, size_t texel)
 {
     const size_t w = s->environment->map.width, n = w*s->environment->map.height;
     const float *const pixels = s->environment->map.pixels;

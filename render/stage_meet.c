@@ -19,6 +19,11 @@ static hit hit_at(const path_batch *batch, uint32_t i)
     return (hit){batch->t[i], batch->u[i], batch->v[i], batch->instance[i], batch->primitive[i]};
 }
 
+static hits hits_of(path_batch *batch)
+{
+    return (hits){batch->t, batch->u, batch->v, batch->instance, batch->primitive};
+}
+
 /* Sends a camera ray on through surfaces that are not drawn. */
 static void pass_culled(path_batch *batch, const path_context *c, path_list *list, uint32_t i, path_counts *counts)
 {
@@ -39,8 +44,7 @@ static void pass_culled(path_batch *batch, const path_context *c, path_list *lis
 /* The nearest surface of every path's ray. */
 void stage_trace(path_batch *batch, const path_context *c, path_list *list, bool is_first, path_counts *counts)
 {
-    tracer_nearest(c->tracer, list->n, rays_of(&list->ray), is_first,
-                   (hits){batch->t, batch->u, batch->v, batch->instance, batch->primitive});
+    tracer_nearest(c->tracer, list->n, rays_of(&list->ray), is_first, hits_of(batch));
     counts->n_rays += list->n;
     if (is_first)
         for (uint32_t i = 0; i < list->n; i++) pass_culled(batch, c, list, i, counts);
@@ -88,15 +92,18 @@ static void gather_sky(path_batch *batch, const path_context *c, const path_list
     gather(batch, list, i, radiance, implicit_weight(c, list, i, pdf));
 }
 
-static void gather_skies(path_batch *batch, const path_context *c, const path_list *list)
+/* Of n paths. */
+static void gather_skies(path_batch *batch, const path_context *c, const path_list *list, const uint32_t *paths,
+                         uint32_t n)
 {
     sky_list *s = &batch->skies;
-    render_loops_chosen()->find_sky(s->n, vectors_of(&s->direction), s->u, s->v);
+    for (uint32_t k = 0; k < n; k++) copy3(&s->direction, k, &list->ray.direction, paths[k]);
+    render_loops_chosen()->find_sky(n, vectors_of(&s->direction), s->u, s->v);
     enum { AHEAD = 8 };
-    for (uint32_t k = 0; k < s->n; k++) {
-        const uint32_t next = k + AHEAD < s->n ? k + AHEAD : k;
+    for (uint32_t k = 0; k < n; k++) {
+        const uint32_t next = k + AHEAD < n ? k + AHEAD : k;
         sky_expect_place(light_set_sky(c->lights), make2(s->u[next], s->v[next]));
-        gather_sky(batch, c, list, s->path[k], make2(s->u[k], s->v[k]));
+        gather_sky(batch, c, list, paths[k], make2(s->u[k], s->v[k]));
     }
 }
 
@@ -112,41 +119,18 @@ static void gather_emission(path_batch *batch, const path_context *c, const path
 }
 
 /* The paths that met something, ordered by material, so that neighbours are shaded by the same code; returns their
- * number.  The others are listed as those that meet the sky. */
+ * number.  Those that meet the sky come last. */
 static uint32_t sort_by_material(path_batch *batch, const path_context *c, const path_list *list)
 {
     uint32_t *const place = batch->n_of_material;
-    batch->skies.n = 0;
-    memset(place, 0, (c->scene->n_materials + 1)*sizeof *place);
-    for (uint32_t i = 0; i < list->n; i++) {
-        if (batch->instance[i] == NO_HIT) {
-            batch->skies.path[batch->skies.n] = i;
-            copy3(&batch->skies.direction, batch->skies.n++, &list->ray.direction, i);
-            continue;
-        }
-        const hit h = hit_at(batch, i);
-        batch->material[i] = (uint32_t)surface_material(c->surfaces, &h);
-        place[batch->material[i] + 1]++;
-    }
-    for (size_t k = 1; k <= c->scene->n_materials; k++) place[k] += place[k - 1];
-    const uint32_t n = place[c->scene->n_materials];
-    for (uint32_t i = 0; i < list->n; i++)
-        if (batch->instance[i] != NO_HIT) batch->order[place[batch->material[i]]++] = i;
-    return n;
-}
-
-/* Asks for the memory of hits that come next. */
-static void expect(const path_batch *batch, const path_context *c, uint32_t k, uint32_t n)
-{
-    enum { AHEAD = 8 };
-    if (k + 2*AHEAD < n) {
-        const hit h = hit_at(batch, batch->order[k + 2*AHEAD]);
-        surface_expect_triangle(c->surfaces, &h);
-    }
-    if (k + AHEAD < n) {
-        const hit h = hit_at(batch, batch->order[k + AHEAD]);
-        surface_expect_vertices(c->surfaces, &h);
-    }
+    const size_t n_materials = c->scene->n_materials;
+    surface_materials(c->surfaces, list->n, hits_of(batch), batch->material);
+    memset(place, 0, (n_materials + 2)*sizeof *place);
+    for (uint32_t i = 0; i < list->n; i++) place[batch->material[i] + 1]++;
+    for (size_t k = 1; k <= n_materials; k++) place[k] += place[k - 1];
+    const uint32_t n_hits = place[n_materials];
+    for (uint32_t i = 0; i < list->n; i++) batch->order[place[batch->material[i]]++] = i;
+    return n_hits;
 }
 
 /* Path i goes on from a vertex. */
@@ -164,28 +148,30 @@ static uint32_t add_vertex(path_batch *batch, const path_list *list, uint32_t i)
     return k;
 }
 
-/* A vertex of a surface that loops find, a block of them at once; false if the hit is of another kind. */
-static bool add_plain(path_batch *batch, const path_context *c, const path_list *list, uint32_t i, const hit *h)
+/* Vertices of surfaces that loops find, a block of them at once, for the first of n paths: their number, 0 if that of the
+ * very first is of another kind. */
+static uint32_t add_plain(path_batch *batch, const path_context *c, const path_list *list, const uint32_t *paths,
+                          uint32_t n)
 {
     vertex_list *v = batch->vertices;
-    const plain_surface at = surface_load_plain(c->surfaces, h, &batch->plain, v->n%LOOP_LANES);
-    if (!at.bsdf) return false;
-    const uint32_t k = add_vertex(batch, list, i);
-    v->bsdf[k] = at.bsdf;
-    v->transmits[k] = at.transmits ? UINT32_MAX : 0;
-    set3(&v->wi, k, neg3(get3(&list->ray.direction, i)));
-    return true;
+    const uint32_t n_plain = surface_load_plain(c->surfaces, hits_of(batch), n, paths, &batch->plain, v->n%LOOP_LANES,
+                                                v->bsdf + v->n, v->transmits + v->n);
+    for (uint32_t j = 0; j < n_plain; j++) {
+        const uint32_t k = add_vertex(batch, list, paths[j]);
+        set3(&v->wi, k, neg3(get3(&list->ray.direction, paths[j])));
+    }
+    return n_plain;
 }
 
 /* A vertex of any other, whose emission is gathered first. */
-static void add_surface(path_batch *batch, const path_context *c, const path_list *list, uint32_t i, const hit *h,
-                        bool is_last)
+static void add_surface(path_batch *batch, const path_context *c, const path_list *list, uint32_t i, bool is_last)
 {
     vertex_list *v = batch->vertices;
+    const hit h = hit_at(batch, i);
     const ray r = get_ray(&list->ray, i);
     const real3 wo = neg3(vector_of(r.direction));
     surface at;
-    surface_find(c->surfaces, &r, h, wo, fraction(batch->chance[0][i]), &v->own[v->n], &at);
+    surface_find(c->surfaces, &r, &h, wo, fraction(batch->chance[0][i]), &v->own[v->n], &at);
     gather_emission(batch, c, list, i, &at);
     if (!at.scatters || is_last) {
         if (c->keeps_features) feature_of_surface(batch, list, i, &at);
@@ -209,15 +195,18 @@ void stage_meet(path_batch *batch, const path_context *c, const path_list *list,
 {
     vertex_list *v = batch->vertices;
     const render_loops *loops = render_loops_chosen();
-    const uint32_t n_hits = sort_by_material(batch, c, list);
-    gather_skies(batch, c, list);
+    const uint32_t n_hits = sort_by_material(batch, c, list), *paths = batch->order;
+    gather_skies(batch, c, list, paths + n_hits, list->n - n_hits);
     v->n = 0;
-    for (uint32_t k = 0; k < n_hits; k++) {
-        const uint32_t i = batch->order[k], n = v->n;
-        const hit h = hit_at(batch, i);
-        expect(batch, c, k, n_hits);
-        if (is_last || !add_plain(batch, c, list, i, &h)) add_surface(batch, c, list, i, &h, is_last);
-        if (v->n > n && v->n%LOOP_LANES == 0) loops->meet(v, v->n - LOOP_LANES, &batch->plain);
+    for (uint32_t k = 0, n; k < n_hits; k += n) {
+        const uint32_t n_before = v->n;
+        n = is_last ? 0 : add_plain(batch, c, list, paths + k, n_hits - k);
+        if (n == 0) {
+            surface_expect(c->surfaces, hits_of(batch), n_hits - k, paths + k);
+            add_surface(batch, c, list, paths[k], is_last);
+            n = 1;
+        }
+        if (v->n > n_before && v->n%LOOP_LANES == 0) loops->meet(v, v->n - LOOP_LANES, &batch->plain);
     }
     if (v->n%LOOP_LANES) loops->meet(v, v->n/LOOP_LANES*LOOP_LANES, &batch->plain);
     if (c->keeps_features)

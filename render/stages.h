@@ -106,9 +106,7 @@ typedef struct shadow_list {
 
 /* Paths that leave the scene. */
 typedef struct sky_list {
-    uint32_t n;
-    LINE_ALIGNED uint32_t path[ROOM];
-    vector_array direction;
+    LINE_ALIGNED vector_array direction;
     float u[ROOM], v[ROOM]; /* sky_place */
 } sky_list;
 
@@ -184,7 +182,7 @@ struct path_batch {
     plain_block plain; /* vertices whose surfaces are still to be found */
     feature_list features;
     vertex_list *vertices;   /* those of the present event */
-    uint32_t *n_of_material; /* counts, then places, of one more than the scene's materials */
+    uint32_t *n_of_material; /* counts, then places, of two more than the scene's materials */
 };
 
 static inline vectors vectors_of(vector_array *a)

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 
+#include "render/expect.h"
 #include "render/texture.h"
 
 typedef struct placement {
@@ -93,10 +94,14 @@ void surface_set_destroy(surface_set *set)
     free(set);
 }
 
-size_t surface_material(const surface_set *set, const hit *h)
+void surface_materials(const surface_set *set, uint32_t n, hits h, uint32_t *materials)
 {
-    return h->instance < set->scene->n_instances ? set->placements[h->instance].mesh->material
-                                                 : set->scene->spheres[h->primitive].material;
+    const scene *s = set->scene;
+    for (uint32_t i = 0; i < n; i++) {
+        const uint32_t index = h.instance[i];
+        if (index < s->n_instances) materials[i] = (uint32_t)set->placements[index].mesh->material;
+        else materials[i] = (uint32_t)(index == NO_HIT ? s->n_materials : s->spheres[h.primitive[i]].material);
+    }
 }
 
 /* Weights of the three vertices. */
@@ -352,26 +357,64 @@ static void load_instance(const surface_set *set, uint32_t index, plain_block *b
     block->offset[lane] = placed->offset;
 }
 
-plain_surface surface_load_plain(const surface_set *set, const hit *h, plain_block *block, uint32_t lane)
+static inline void load_corners(float to[3][3][LOOP_LANES], uint32_t lane, const uint32_t triangle[3],
+                                const float (*values)[3])
 {
-    if (h->instance >= set->scene->n_instances) return (plain_surface){.bsdf = NULL};
-    const placement *placed = &set->placements[h->instance];
-    if (!placed->is_plain) return (plain_surface){.bsdf = NULL};
-    const mesh *m = placed->mesh;
-    const uint32_t *triangle = m->triangles[h->primitive];
     for (int corner = 0; corner < 3; corner++)
-        for (int k = 0; k < 3; k++) block->corners[corner][k][lane] = m->positions[triangle[corner]][k];
-    if (m->normals)
-        for (int corner = 0; corner < 3; corner++)
-            for (int k = 0; k < 3; k++) block->normals[corner][k][lane] = m->normals[triangle[corner]][k];
-    block->u[lane] = h->u;
-    block->v[lane] = h->v;
-    block->is_there[lane] = UINT32_MAX;
-    block->is_smooth[lane] = m->normals ? UINT32_MAX : 0;
-    block->has_smooth |= m->normals != NULL;
-    load_instance(set, h->instance, block, lane);
-    const shared_shading *shading = &set->shadings[m->material];
-    return (plain_surface){&shading->bsdf, shading->transmits};
+        for (int k = 0; k < 3; k++) to[corner][k][lane] = values[triangle[corner]][k];
+}
+
+static inline const placement *placement_at(const surface_set *set, hits h, uint32_t i)
+{
+    return h.instance[i] < set->scene->n_instances ? &set->placements[h.instance[i]] : NULL;
+}
+
+/* The triangle is fetched twice as far ahead as its vertices, which it must be known for. */
+EXPECTING void expect_hit(const surface_set *set, hits h, uint32_t n, const uint32_t *order)
+{
+    enum { AHEAD = 12 };
+    if (2*AHEAD < n) {
+        const placement *placed = placement_at(set, h, order[2*AHEAD]);
+        if (placed) __builtin_prefetch(placed->mesh->triangles[h.primitive[order[2*AHEAD]]]);
+    }
+    if (AHEAD < n) {
+        const placement *placed = placement_at(set, h, order[AHEAD]);
+        if (!placed) return;
+        const mesh *m = placed->mesh;
+        const uint32_t *triangle = m->triangles[h.primitive[order[AHEAD]]];
+        for (int k = 0; k < 3; k++) __builtin_prefetch(m->positions[triangle[k]]);
+        for (int k = 0; k < 3 && m->normals; k++) __builtin_prefetch(m->normals[triangle[k]]);
+    }
+}
+
+void surface_expect(const surface_set *set, hits h, uint32_t n, const uint32_t *order)
+{
+    expect_hit(set, h, n, order);
+}
+
+uint32_t surface_load_plain(const surface_set *set, hits h, uint32_t n, const uint32_t *order, plain_block *block,
+                            uint32_t lane, const facet_bsdf **bsdfs, uint32_t *transmits)
+{
+    const uint32_t room = LOOP_LANES - lane, end = n < room ? n : room;
+    for (uint32_t k = 0; k < end; k++, lane++) {
+        const uint32_t i = order[k];
+        const placement *placed = placement_at(set, h, i);
+        if (!placed || !placed->is_plain) return k;
+        expect_hit(set, h, n - k, order + k);
+        const mesh *m = placed->mesh;
+        const uint32_t *triangle = m->triangles[h.primitive[i]];
+        load_corners(block->corners, lane, triangle, (const float(*)[3])m->positions);
+        if (m->normals) load_corners(block->normals, lane, triangle, (const float(*)[3])m->normals);
+        block->u[lane] = h.u[i];
+        block->v[lane] = h.v[i];
+        block->is_there[lane] = UINT32_MAX;
+        block->is_smooth[lane] = m->normals ? UINT32_MAX : 0;
+        block->has_smooth |= m->normals != NULL;
+        load_instance(set, h.instance[i], block, lane);
+        bsdfs[k] = &set->shadings[m->material].bsdf;
+        transmits[k] = set->shadings[m->material].transmits ? UINT32_MAX : 0;
+    }
+    return end;
 }
 
 bool surface_is_hidden(const surface_set *set, const hit *h, real3 direction)
@@ -385,21 +428,4 @@ bool surface_is_hidden(const surface_set *set, const hit *h, real3 direction)
     const real3 e1 = map_vector(in->to_world, sub3(vector_of(m->positions[i[1]]), p0));
     const real3 e2 = map_vector(in->to_world, sub3(vector_of(m->positions[i[2]]), p0));
     return placed->sign*dot3(normal_of_edges(e1, e2), direction) > 0;
-}
-
-void surface_expect_triangle(const surface_set *set, const hit *h)
-{
-    if (h->instance < set->scene->n_instances)
-        __builtin_prefetch(&set->placements[h->instance].mesh->triangles[h->primitive]);
-}
-
-void surface_expect_vertices(const surface_set *set, const hit *h)
-{
-    if (h->instance >= set->scene->n_instances) return;
-    const mesh *m = set->placements[h->instance].mesh;
-    for (int k = 0; k < 3; k++) {
-        const uint32_t vertex = m->triangles[h->primitive][k];
-        __builtin_prefetch(&m->positions[vertex]);
-        if (m->normals) __builtin_prefetch(&m->normals[vertex]);
-    }
 }

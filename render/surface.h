@@ -43,14 +43,8 @@ void surface_set_destroy(surface_set *set);
 void surface_find(const surface_set *set, const ray *r, const hit *h, real3 wo, float choice, facet_bsdf *own,
                   surface *at);
 
-/* Triangles of one bsdf, without emission, whose frames are those of their normals: loops find them
- * (surface_loops_text.h). */
-typedef struct plain_surface {
-    const facet_bsdf *bsdf; /* NULL: the hit is of another kind */
-    bool transmits;
-} plain_surface;
-
-/* A block of hits of such triangles.  Lanes keep what they have of an instance until another comes. */
+/* A block of hits of plain triangles: of one bsdf, without emission, whose frames are those of their normals; loops find
+ * them (surface_loops_text.h).  Lanes keep what they have of an instance until another comes. */
 typedef struct plain_block {
     float corners[3][3][LOOP_LANES], normals[3][3][LOOP_LANES]; /* of the triangles, as their mesh has them */
     float u[LOOP_LANES], v[LOOP_LANES];
@@ -62,8 +56,10 @@ typedef struct plain_block {
     bool has_smooth;
 } plain_block;
 
-/* Loads a hit into a lane, if it is of this kind. */
-plain_surface surface_load_plain(const surface_set *set, const hit *h, plain_block *block, uint32_t lane);
+/* Loads the hits order[0], order[1], ... of n into the lanes from `lane` on, up to the end of the block or to one of
+ * another kind: their number.  They get their bsdfs, and whether these transmit: all bits, or none. */
+uint32_t surface_load_plain(const surface_set *set, hits h, uint32_t n, const uint32_t *order, plain_block *block,
+                            uint32_t lane, const facet_bsdf **bsdfs, uint32_t *transmits);
 
 /* Interpolated and mapped normals n may lean so far from the true one g (both on the viewer's side) that the mirror
  * image of wo lies under the surface, and the surface looks black: unless its cosine with g is at least this, ... */
@@ -83,12 +79,11 @@ real3 surface_bend_normal(real3 n, real3 g, real3 wo);
 /* glTF's single-sided surfaces are not drawn from behind; light meets them all the same. */
 bool surface_is_hidden(const surface_set *set, const hit *h, real3 direction);
 
-/* Fetches what surface_find will want of a hit into the caches: first the triangle, some hits later its vertices. */
-void surface_expect_triangle(const surface_set *set, const hit *h);
-void surface_expect_vertices(const surface_set *set, const hit *h);
+/* Fetches what will be wanted of the hits that come some after order[0] of n into the caches. */
+void surface_expect(const surface_set *set, hits h, uint32_t n, const uint32_t *order);
 
-/* The index of the material at a hit. */
-size_t surface_material(const surface_set *set, const hit *h);
+/* The indices of the materials at n hits, n_materials for those that are none. */
+void surface_materials(const surface_set *set, uint32_t n, hits h, uint32_t *materials);
 
 /* Radiance that a point of a triangle emits on its emitting side(s), from factors and texture. */
 real3 surface_emission(const scene *s, const mesh *m, uint32_t triangle, float u, float v);

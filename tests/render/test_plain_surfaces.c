@@ -106,23 +106,30 @@ static void the_loops_find_what_surface_find_finds(void **state)
     for (size_t i = 0; i < n_tables(); i++)
         assert_non_null(lists[i] = aligned_alloc(64, (sizeof(vertex_list) + 63)/64*64));
     for (int round = 0; round < 100; round++) {
-        hit met[N];
+        float t[N], weights[2][N];
+        uint32_t which[2][N], order[N];
+        const hits met = {t, weights[0], weights[1], which[0], which[1]};
         real3 wo[N];
         for (uint32_t k = 0; k < N; k++) {
-            const float u = (float)draw_between(&d, 0, 1), v = (float)draw_between(&d, 0, 1)*(1 - u);
-            const uint32_t which = (uint32_t)(draw_bits(&d)%s->n_instances);
-            met[k] = (hit){.t = 1, .u = u, .v = v, .instance = which, .primitive = (k + (uint32_t)round)%N};
+            met.t[k] = 1;
+            met.u[k] = (float)draw_between(&d, 0, 1);
+            met.v[k] = (float)draw_between(&d, 0, 1)*(1 - met.u[k]);
+            met.instance[k] = (uint32_t)(draw_bits(&d)%s->n_instances);
+            met.primitive[k] = (k + (uint32_t)round)%N;
+            order[k] = k;
             wo[k] = normalize3(draw3(&d));
         }
         for (size_t i = 0; i < n_tables(); i++) {
             memset(lists[i], 0, sizeof *lists[i]);
             lists[i]->n = N;
-            for (uint32_t k = 0; k < N; k++) {
-                if (k%16 == 15) continue; /* a lane that another kind of surface has filled */
-                const plain_surface plain = surface_load_plain(set, &met[k], block, k);
-                assert_non_null(plain.bsdf);
-                lists[i]->transmits[k] = plain.transmits ? UINT32_MAX : 0;
-                set3(&lists[i]->wi, k, wo[k]);
+            for (uint32_t k = 0; k < N; k += 16) { /* a lane after each 15 that another kind of surface has filled */
+                assert_int_equal(surface_load_plain(set, met, 15, order + k, block, k, lists[i]->bsdf + k,
+                                                    lists[i]->transmits + k),
+                                 15);
+                for (uint32_t j = k; j < k + 15; j++) {
+                    assert_non_null(lists[i]->bsdf[j]);
+                    set3(&lists[i]->wi, j, wo[j]);
+                }
             }
             tables[i]->meet(lists[i], 0, block);
             assert_memory_equal(lists[i], lists[0], sizeof *lists[i]);
@@ -135,7 +142,8 @@ static void the_loops_find_what_surface_find_finds(void **state)
                 assert_true(lists[0]->offset[k] == 0 && max_abs3(get3(&lists[0]->up, k)) == 0);
                 continue;
             }
-            surface_find(set, &r, &met[k], wo[k], 0, &own, &at);
+            const hit h = {met.t[k], met.u[k], met.v[k], met.instance[k], met.primitive[k]};
+            surface_find(set, &r, &h, wo[k], 0, &own, &at);
             compare(lists[0], k, &at, wo[k]);
         }
     }
