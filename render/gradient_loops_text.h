@@ -1,26 +1,42 @@
 /* gradient_loops_text.h: the loops over neighbouring pixels (stage_gradients.c), a part of loops_text.h.
  * SPDX-License-Identifier: MIT */
 
-/* The second vertices as lights of radiance 1: no more than aim and connect ask of one. */
-static void reach(vertex_list *v, gradient_list *g)
+/* Those of the pixels a step before. */
+static inline vectors before(framed_array *a, ptrdiff_t step)
 {
+    const vectors v = {a->x + MARGIN - step, a->y + MARGIN - step, a->z + MARGIN - step};
+    return v;
+}
+
+static inline real3 at3(vectors v, size_t k)
+{
+    return make3(v.x[k], v.y[k], v.z[k]);
+}
+
+/* The second vertices as lights of radiance 1: no more than aim and connect ask of one. */
+static void reach(vertex_list *v, gradient_list *g, ptrdiff_t step)
+{
+    const vectors position = before(&g->position, step), target = before(&g->target, step),
+                  normals = before(&g->normal, step), shading = before(&g->shading, step),
+                  own = before(&g->own, step);
+    const float *density = g->density + MARGIN - step;
     for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
         {
-            const size_t k = first + i, j = g->from[k];
-            const real3 d = sub3(lane3(&g->position, j), lane3(&v->position, k));
+            const size_t k = first + i;
+            const real3 d = sub3(at3(position, k), lane3(&v->position, k));
             const float d2 = dot3(d, d);
             const real3 direction = scale3(1/ksqrt(kmax(d2, REAL_MIN)), d), wo = neg3(direction);
-            const real3 normal = lane3(&g->normal, j);
+            const real3 normal = at3(normals, k);
             const float cos = dot3(normal, wo);
-            const float lack = least_mirror_cosine(cos) - mirror_cosine(lane3(&g->shading, j), normal, wo);
-            const int is_shared = (g->density[j] > 0) & (max_of3(lane3(&g->own, j)) > 0);
+            const float lack = least_mirror_cosine(cos) - mirror_cosine(at3(shading, k), normal, wo);
+            const int is_shared = (g->is_beside[k] != 0) & (density[k] > 0) & (max_of3(at3(own, k)) > 0);
             v->light.pdf[k] = keep_if(is_shared & (cos > 0) & (lack <= 0), 1);
             v->light.direction.x[k] = direction.x;
             v->light.direction.y[k] = direction.y;
             v->light.direction.z[k] = direction.z;
-            v->light.target.x[k] = g->target.x[j];
-            v->light.target.y[k] = g->target.y[j];
-            v->light.target.z[k] = g->target.z[j];
+            v->light.target.x[k] = target.x[k];
+            v->light.target.y[k] = target.y[k];
+            v->light.target.z[k] = target.z[k];
             v->light.radiance.x[k] = v->light.radiance.y[k] = v->light.radiance.z[k] = 1;
             v->light.is_infinite[k] = v->light.is_delta[k] = 0;
             g->distance2[k] = d2;
@@ -35,18 +51,20 @@ static inline float passed_on(float own, float seen, float throughput, float f, 
     return keep_if((f > 0) & (throughput > 0) & (m < MOST_PASSED), m); /* nor what is not a number */
 }
 
-static void pass_on(vertex_list *v, gradient_list *g)
+static void pass_on(const vertex_list *v, gradient_list *g, ptrdiff_t step)
 {
-    const vector_array *own = &g->own, *seen = &g->seen, *throughput = &g->throughput;
+    const vectors own = before(&g->own, step), seen = before(&g->seen, step), weight = before(&g->throughput, step);
+    const float *densities = g->density + MARGIN - step;
+    float *red = g->passed[0] + MARGIN, *green = g->passed[1] + MARGIN, *blue = g->passed[2] + MARGIN;
     for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
         {
-            const size_t k = first + i, j = g->from[k];
+            const size_t k = first + i;
             const float cos = keep_if(v->keeps[k] != 0, g->cosine[k]), other = v->pdf[k]*cos;
-            const float density = g->density[j]*g->distance2[k];
+            const float density = densities[k]*g->distance2[k];
             const real3 f = scale3(cos, lane3(&v->f, k));
-            v->f.x[k] = passed_on(own->x[j], seen->x[j], throughput->x[j], f.x, density, other);
-            v->f.y[k] = passed_on(own->y[j], seen->y[j], throughput->y[j], f.y, density, other);
-            v->f.z[k] = passed_on(own->z[j], seen->z[j], throughput->z[j], f.z, density, other);
+            red[k] = passed_on(own.x[k], seen.x[k], weight.x[k], f.x, density, other);
+            green[k] = passed_on(own.y[k], seen.y[k], weight.y[k], f.y, density, other);
+            blue[k] = passed_on(own.z[k], seen.z[k], weight.z[k], f.z, density, other);
         }
 }
 
@@ -56,26 +74,47 @@ static inline float lamp_passed_on(float own, float seen, float lit)
     return keep_if((own > 0) & (seen > 0) & (seen < MOST_PASSED), lit*own*(seen/(own + seen)));
 }
 
-static void pass_lamps(vertex_list *v, gradient_list *g)
+static void take_lamps(vertex_list *v, const gradient_list *g, ptrdiff_t step)
 {
-    const vector_array *own = &g->brought;
+    const uint32_t *lamp = g->lamp + MARGIN - step, *x = g->lamp_u[0] + MARGIN - step, *y = g->lamp_u[1] + MARGIN - step;
+    const float *probability = g->lamp_probability + MARGIN - step;
+    const double *rest = g->lamp_rest + MARGIN - step;
+    for (size_t first = 0; first < v->n; first += BLOCK) {
+        EACH_LANE(i)
+        {
+            const size_t k = first + i;
+            v->light.which[k] = g->is_beside[k] ? lamp[k] : 0;
+            v->light.probability[k] = keep_if(g->is_beside[k] != 0, probability[k]);
+            v->u[1][k] = x[k];
+            v->u[2][k] = y[k];
+        }
+        EACH_LANE(i) v->light.rest[first + i] = rest[first + i];
+    }
+}
+
+static void pass_lamps(const vertex_list *v, gradient_list *g, ptrdiff_t step)
+{
+    const vectors own = before(&g->brought, step);
+    const float *probabilities = g->lamp_probability + MARGIN - step;
+    const uint32_t *is_lit = g->is_lit + MARGIN - step;
+    float *red = g->passed[0] + MARGIN, *green = g->passed[1] + MARGIN, *blue = g->passed[2] + MARGIN;
     for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
         {
-            const size_t k = first + i, j = g->from[k];
-            const float lit = keep_if(v->keeps[k] != 0, 1) + keep_if(g->is_lit[j] != 0, 1);
-            const float probability = g->lamp_probability[j];
+            const size_t k = first + i;
+            const float lit = keep_if(v->keeps[k] != 0, 1) + keep_if(is_lit[k] != 0, 1);
+            const float probability = keep_if(g->is_beside[k] != 0, probabilities[k]);
             const float ratio = keep_if(probability > 0, v->light.probability[k]/probability);
-            v->f.x[k] = lamp_passed_on(own->x[j], ratio*v->f.x[k], lit);
-            v->f.y[k] = lamp_passed_on(own->y[j], ratio*v->f.y[k], lit);
-            v->f.z[k] = lamp_passed_on(own->z[j], ratio*v->f.z[k], lit);
+            red[k] += lamp_passed_on(own.x[k], ratio*v->f.x[k], lit);
+            green[k] += lamp_passed_on(own.y[k], ratio*v->f.y[k], lit);
+            blue[k] += lamp_passed_on(own.z[k], ratio*v->f.z[k], lit);
         }
 }
 
-static void look_back(vertex_list *v, const vertex_list *neighbours, gradient_list *g)
+static void look_back(vertex_list *v, const vertex_list *neighbours, ptrdiff_t step)
 {
     for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
         {
-            const size_t k = first + i, j = g->neighbour[k];
+            const size_t k = first + i, j = (v->slot[k] + (uint32_t)step)%PATHS; /* any where there is none */
             const real3 d = sub3(lane3(&neighbours->position, j), lane3(&v->position, k));
             const real3 wo = lane_to_local(v, k, scale3(1/ksqrt(kmax(dot3(d, d), REAL_MIN)), d));
             v->wo.x[k] = wo.x;

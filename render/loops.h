@@ -75,17 +75,19 @@ typedef struct render_loops {
     void (*connect)(struct vertex_list *v, bool is_mis);
     /* Rays along the sampled directions wi, and in f what the paths carry then. */
     void (*scatter)(struct vertex_list *v, bool has_roulette);
-    /* wo of second vertices to the neighbours' first ones. */
-    void (*look_back)(struct vertex_list *second, const struct vertex_list *first, struct gradient_list *g);
+    /* wo of second vertices to the first ones of the pixels a step on. */
+    void (*look_back)(struct vertex_list *second, const struct vertex_list *first, ptrdiff_t step);
     /* How much brighter the light's part looks from there, from f for that wo, as a share of the path's own. */
     void (*contrast)(struct vertex_list *second, const struct vector_array *own_f, struct vector_array *ratio);
-    /* From first vertices to the second ones of the neighbours that are named in `from`, as to lights. */
-    void (*reach)(struct vertex_list *first, struct gradient_list *g);
-    /* Into f what the neighbours' light is worth there, by f and pdf towards those that are to be kept; ... */
-    void (*pass_on)(struct vertex_list *first, struct gradient_list *g);
-    /* ... what their lamps are worth there, by what those bring, and to whom; ... */
-    void (*pass_lamps)(struct vertex_list *first, struct gradient_list *g);
-    /* ... given to them and taken from those that have it. */
+    /* From first vertices to the second ones of the pixels a step before, as to lights. */
+    void (*reach)(struct vertex_list *first, struct gradient_list *g, ptrdiff_t step);
+    /* What the light of those is worth there, which they pass on, by f and pdf towards the vertices that are kept. */
+    void (*pass_on)(const struct vertex_list *first, struct gradient_list *g, ptrdiff_t step);
+    /* The lamps of the pixels a step before, and the numbers that chose them. */
+    void (*take_lamps)(struct vertex_list *first, const struct gradient_list *g, ptrdiff_t step);
+    /* What those are worth there, too, by what they bring. */
+    void (*pass_lamps)(const struct vertex_list *first, struct gradient_list *g, ptrdiff_t step);
+    /* What is passed on is given to pixels and taken from those a step before. */
     void (*give)(struct gradient_list *g, size_t n, ptrdiff_t step);
     /* Weights of neighbours. */
     void (*liken)(struct gradient_list *g, size_t width, size_t height);

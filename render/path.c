@@ -16,6 +16,8 @@ path_batch *path_batch_create(const scene *s)
     path_batch *batch = aligned_alloc(64, (sizeof *batch + 63)/64*64);
     if (!batch) return NULL;
     memset(batch, 0, sizeof *batch); /* loops run over whole vectors, over lanes that nothing was put in */
+    const float none[3] = {0, 0, 0};
+    batch->black = facet_bsdf_metallic_roughness(none, 0, 1, 0, 0, none);
     batch->n_of_material = malloc((s->n_materials + 2)*sizeof *batch->n_of_material);
     if (!batch->n_of_material) {
         free(batch);
@@ -70,7 +72,7 @@ void path_batch_run(path_batch *batch, const path_context *c, tile where, uint32
         }
         stage_trace(batch, c, list, event == 0, counts);
         batch->vertices = &batch->vertex_lists[event < 2 ? event : 2];
-        stage_meet(batch, c, list, event >= c->settings->depth);
+        stage_meet(batch, c, list, c->has_gradients && event == 0, event >= c->settings->depth);
         if (c->has_gradients && event == 1) gradient_of_second_vertices(batch);
         stage_connect(batch, c, group, counts);
         if (c->has_gradients && event == 0) gradient_of_first_lights(batch, c);

@@ -48,13 +48,15 @@ void feature_of_surface(path_batch *batch, const path_list *list, uint32_t i, co
 
 void feature_of_vertex(path_batch *batch, const path_list *list, uint32_t k)
 {
-    meet(batch, list, batch->vertices->path[k], get3(&batch->vertices->up, k));
+    const vertex_list *v = batch->vertices;
+    if (v->path[k] != NO_PATH) meet(batch, list, v->path[k], get3(&v->up, k));
 }
 
 void feature_of_scattering(path_batch *batch, const path_list *list, uint32_t k)
 {
     const vertex_list *v = batch->vertices;
     const uint32_t i = v->path[k];
+    if (i == NO_PATH) return;
     const bool is_found = v->pdf[k] > 0;
     if (batch->features.is_known[list->slot[i]] || (is_found && v->lobe[k] & FACET_DELTA)) return;
     set_albedo(batch, list, i, is_found ? get3(&v->f, k) : splat3(0));

@@ -32,6 +32,18 @@
 #include <math.h>
 #include <string.h>
 
+static real3 take3(const framed_array *a, uint32_t slot)
+{
+    return make3(a->x[MARGIN + slot], a->y[MARGIN + slot], a->z[MARGIN + slot]);
+}
+
+static void put3(framed_array *a, uint32_t slot, real3 v)
+{
+    a->x[MARGIN + slot] = v.x;
+    a->y[MARGIN + slot] = v.y;
+    a->z[MARGIN + slot] = v.z;
+}
+
 /* What has been gathered so far is not shared. */
 static void set_apart(path_batch *batch)
 {
@@ -52,22 +64,19 @@ void gradient_start(path_batch *batch)
 {
     gradient_list *g = &batch->gradients;
     const vertex_list *v = &batch->vertex_lists[0];
+    const float *const up[3] = {v->up.x, v->up.y, v->up.z}, *const weight[3] = {v->f.x, v->f.y, v->f.z};
+    float *const throughput[3] = {g->throughput.x, g->throughput.y, g->throughput.z};
     memset(&g->apart, 0, sizeof g->apart);
     memset(&g->near, 0, sizeof g->near);
-    memset(g->up, 0, sizeof g->up);
     memset(g->density, 0, sizeof g->density);
-    for (uint32_t i = 0; i < ROOM; i++) g->first[i] = NO_VERTEX;
     set_apart(batch);
     batch->vertex_lists[1].n = 0;
-    for (uint32_t k = 0; k < v->n; k++) {
-        const uint32_t slot = v->slot[k];
-        g->first[slot] = k;
-        g->up[0][slot] = v->up.x[k];
-        g->up[1][slot] = v->up.y[k];
-        g->up[2][slot] = v->up.z[k];
-        copy3(&g->throughput, slot, &v->f, k);
-        g->pdf[slot] = v->lobe[k] & FACET_DELTA ? 0 : v->pdf[k];
+    for (int k = 0; k < 3; k++) {
+        memcpy(g->up[k], up[k], v->n*sizeof(float));
+        memset(g->up[k] + v->n, 0, (FRAMED - v->n)*sizeof(float));
+        memcpy(throughput[k] + MARGIN, weight[k], v->n*sizeof(float));
     }
+    for (uint32_t k = 0; k < v->n; k++) g->pdf[k] = v->lobe[k] & FACET_DELTA ? 0 : v->pdf[k];
 }
 
 /* Errors grow with the light that there is, of which the sum that lights are chosen by tells without a sample: the dark
@@ -75,13 +84,17 @@ void gradient_start(path_batch *batch)
 static void weigh_pixels(gradient_list *g, const vertex_list *v)
 {
     const float *level = v->receiver.weight;
-    double sum = 0;
-    for (uint32_t k = 0; k < v->n; k++) sum += (double)level[k];
-    const float mean = (float)(sum/v->n);
+    double sum = 0, n = 0;
+    for (uint32_t k = 0; k < v->n; k++) {
+        const bool is_there = v->path[k] != NO_PATH;
+        sum += is_there ? (double)level[k] : 0;
+        n += is_there;
+    }
+    const float mean = (float)(sum/n);
     if (!(mean > REAL_MIN && mean < INFINITY)) return;
     for (uint32_t k = 0; k < v->n; k++) {
-        const float relative = 1/(level[k]/mean + LEAST_LEVEL);
-        g->self[MARGIN + v->slot[k]] = LIGHT_WEIGHT*relative*relative;
+        const float relative = v->path[k] == NO_PATH ? 1 : 1/(level[k]/mean + LEAST_LEVEL);
+        g->self[MARGIN + k] = LIGHT_WEIGHT*relative*relative;
     }
 }
 
@@ -97,32 +110,28 @@ void gradient_of_first_lights(path_batch *batch, const path_context *c)
 {
     gradient_list *g = &batch->gradients;
     vertex_list *v = &batch->vertex_lists[0];
-    memset(g->lamp, 0, sizeof g->lamp);
     memset(g->lamp_probability, 0, sizeof g->lamp_probability);
     memset(&g->brought, 0, sizeof g->brought);
     g->has_lamps = false;
     for (int i = 0; i < FRAMED; i++) g->self[i] = LIGHT_WEIGHT;
     if (light_set_is_empty(c->lights)) return;
     weigh_pixels(g, v);
+    memcpy(g->lamp + MARGIN, v->light.which, v->n*sizeof *g->lamp);
+    memcpy(g->lamp_rest + MARGIN, v->light.rest, v->n*sizeof *g->lamp_rest);
+    memcpy(g->is_lit + MARGIN, v->keeps, v->n*sizeof *g->is_lit);
+    for (int i = 0; i < 2; i++) memcpy(g->lamp_u[i] + MARGIN, v->u[i + 1], v->n*sizeof *g->lamp_u[i]);
     for (uint32_t k = 0; k < v->n; k++) {
-        const uint32_t slot = v->slot[k];
         const real3 light = get3(&v->f, k);
         if (!(max_of3(light) > 0 && is_held(light))) continue;
         g->has_lamps = true;
-        g->lamp[slot] = v->light.which[k];
-        g->lamp_probability[slot] = v->light.probability[k];
-        g->lamp_rest[slot] = v->light.rest[k];
-        for (int i = 0; i < 2; i++) g->lamp_u[i][slot] = v->u[i + 1][k];
-        set3(&g->brought, slot, light);
-        g->is_lit[slot] = v->keeps[k];
+        g->lamp_probability[MARGIN + k] = v->light.probability[k];
+        put3(&g->brought, k, light);
     }
     if (c->settings->strategy != STRATEGY_MIS || light_set_rates_exactly(c->lights)) return;
     light_set_rate(c->lights, v->n, receivers_of(&v->position, &v->receiver), choices_of(&v->light));
     for (uint32_t k = 0; k < v->n; k++) {
-        const uint32_t slot = v->slot[k];
-        const float probability = g->lamp_probability[slot];
-        if (!(probability > 0)) continue;
-        set3(&g->brought, slot, scale3(weight_by_rate(v, k, probability), get3(&g->brought, slot)));
+        const float probability = g->lamp_probability[MARGIN + k];
+        if (probability > 0) put3(&g->brought, k, scale3(weight_by_rate(v, k, probability), take3(&g->brought, k)));
     }
 }
 
@@ -135,16 +144,16 @@ void gradient_of_second_vertices(path_batch *batch)
         const uint32_t slot = v->slot[k];
         if (facet_bsdf_lobes(v->bsdf[k]) & (FACET_DELTA | FACET_TRANSMISSION)) continue;
         const real3 position = get3(&v->position, k), normal = scale3(v->facing[k] < 0 ? -1 : 1, get3(&v->normal, k));
-        const real3 d = sub3(get3(&batch->vertex_lists[0].position, g->first[slot]), position);
+        const real3 d = sub3(get3(&batch->vertex_lists[0].position, slot), position);
         const float d2 = dot3(d, d);
         const real3 wo = scale3(1/sqrtf(d2), d), up = get3(&v->up, k);
         const float cos = dot3(normal, wo);
         if (!(mirror_cosine(up, normal, wo) >= least_mirror_cosine(cos))) continue; /* bent for this wo alone */
-        set3(&g->position, slot, position);
-        set3(&g->normal, slot, normal);
-        set3(&g->shading, slot, up);
-        set3(&g->target, slot, madd3(position, v->offset[k], normal));
-        g->density[slot] = g->pdf[slot]*cos/d2;
+        put3(&g->position, slot, position);
+        put3(&g->normal, slot, normal);
+        put3(&g->shading, slot, up);
+        put3(&g->target, slot, madd3(position, v->offset[k], normal));
+        g->density[MARGIN + slot] = g->pdf[slot]*cos/d2;
     }
 }
 
@@ -168,8 +177,9 @@ static uint32_t drop_dark(path_batch *batch)
             set3(&g->near, i, splat3(0));
             set3(&batch->radiance, i, splat3(0));
         }
-        if (!is_held(light) || !(max_of3(light) > 0)) g->density[i] = 0;
-        n += g->density[i] > 0;
+        float *density = &g->density[MARGIN + i];
+        if (!is_held(light) || !(max_of3(light) > 0)) *density = 0;
+        n += *density > 0;
     }
     return n;
 }
@@ -187,108 +197,82 @@ static void evaluate_paths(path_batch *batch)
     gradient_list *g = &batch->gradients;
     vertex_list *v = &batch->vertex_lists[1];
     g->onward = v->wi;
-    for (uint32_t k = 0; k < v->n; k++) v->light.pdf[k] = g->density[v->slot[k]] > 0; /* else f is not asked for */
+    for (uint32_t k = 0; k < v->n; k++) v->light.pdf[k] = g->density[MARGIN + v->slot[k]] > 0; /* else f is not asked for */
     evaluate_seconds(v, &g->to_light);
     g->near_f = v->f;
     evaluate_seconds(v, &g->onward);
     g->far_f = v->f;
 }
 
-/* Each slot's neighbour a step along, or NO_SLOT.  step: 1, -1, width or -width, in slots; a single column has none. */
+/* Which pixels have one a step before.  step: 1, -1, width or -width, in slots. */
 static void find_neighbours(gradient_list *g, uint32_t width, uint32_t height, int step)
 {
-    const int n = (int)(width*height);
-    for (int i = 0; i < n; i++) g->beside[i] = i + step >= 0 && i + step < n ? (uint32_t)(i + step) : NO_SLOT;
-    if (step != 1 && step != -1) return;
-    for (int i = step > 0 ? (int)width - 1 : 0; i < n; i += (int)width) g->beside[i] = NO_SLOT;
+    const int n = (int)(width*height), rows = step == 1 || step == -1 ? 0 : step;
+    for (int i = 0; i < (int)ROOM; i++) g->is_beside[i] = i >= rows && i < n + rows && i < n;
+    if (rows) return;
+    for (int i = step > 0 ? 0 : (int)width - 1; i < n; i += (int)width) g->is_beside[i] = 0;
 }
 
-/* What neighbours see of the paths' light. */
-static void look_back(path_batch *batch)
+/* What the pixels a step on see of the paths' light. */
+static void look_back(path_batch *batch, int step)
 {
     const render_loops *loops = render_loops_chosen();
     gradient_list *g = &batch->gradients;
     vertex_list *v = &batch->vertex_lists[1];
-    for (uint32_t k = 0; k < v->n; k++) g->neighbour[k] = g->first[g->beside[v->slot[k]]];
-    loops->look_back(v, &batch->vertex_lists[0], g);
+    loops->look_back(v, &batch->vertex_lists[0], step);
     evaluate_seconds(v, &g->to_light);
     loops->contrast(v, &g->near_f, &g->near_ratio);
     evaluate_seconds(v, &g->onward);
     loops->contrast(v, &g->far_f, &v->f);
     for (uint32_t k = 0; k < v->n; k++) {
         const uint32_t slot = v->slot[k];
-        if (!(g->density[slot] > 0)) continue;
+        if (!(g->density[MARGIN + slot] > 0)) continue;
         const real3 near = get3(&g->near, slot), far = get3(&batch->radiance, slot);
         const real3 near_ratio = get3(&g->near_ratio, k), far_ratio = get3(&v->f, k);
-        set3(&g->seen, slot, add3(mul3(near_ratio, near), mul3(far_ratio, far)));
-        set3(&g->own, slot,
+        put3(&g->seen, slot, add3(mul3(near_ratio, near), mul3(far_ratio, far)));
+        put3(&g->own, slot,
              make3((near_ratio.x > 0 ? near.x : 0) + (far_ratio.x > 0 ? far.x : 0),
                    (near_ratio.y > 0 ? near.y : 0) + (far_ratio.y > 0 ? far.y : 0),
                    (near_ratio.z > 0 ? near.z : 0) + (far_ratio.z > 0 ? far.z : 0)));
     }
 }
 
-/* f and pdf of the neighbours towards the second vertices, as far as these are in sight. */
-static void reach(path_batch *batch, const path_context *c, path_counts *counts)
+/* f and pdf towards the second vertices of the pixels a step before, as far as these are in sight. */
+static void reach(path_batch *batch, const path_context *c, int step, path_counts *counts)
 {
     const render_loops *loops = render_loops_chosen();
     vertex_list *v = &batch->vertex_lists[0];
-    loops->reach(v, &batch->gradients);
+    loops->reach(v, &batch->gradients, step);
     loops->aim(v, false);
     vertices_connect(batch, v, c, false, counts);
 }
 
-/* What the lights of the neighbours bring, by the same numbers. */
-static void reach_lamps(path_batch *batch, const path_context *c, path_counts *counts)
+/* What the lamps of the pixels a step before bring, by the same numbers. */
+static void reach_lamps(path_batch *batch, const path_context *c, int step, path_counts *counts)
 {
-    gradient_list *g = &batch->gradients;
     vertex_list *v = &batch->vertex_lists[0];
-    for (uint32_t k = 0; k < v->n; k++) {
-        const uint32_t slot = g->from[k];
-        v->light.which[k] = g->lamp[slot];
-        v->light.probability[k] = g->lamp_probability[slot];
-        v->light.rest[k] = g->lamp_rest[slot];
-        for (int i = 0; i < 2; i++) v->u[i + 1][k] = g->lamp_u[i][slot];
-    }
+    render_loops_chosen()->take_lamps(v, &batch->gradients, step);
     light_set_rate(c->lights, v->n, receivers_of(&v->position, &v->receiver), choices_of(&v->light));
     vertices_aim(v, c);
     vertices_connect(batch, v, c, c->settings->strategy == STRATEGY_MIS, counts);
 }
 
-/* Adds f to what is passed on. */
-static void pass(gradient_list *g, const vertex_list *v)
-{
-    for (uint32_t k = 0; k < v->n; k++) {
-        const uint32_t slot = MARGIN + v->slot[k];
-        g->passed[0][slot] += v->f.x[k];
-        g->passed[1][slot] += v->f.y[k];
-        g->passed[2][slot] += v->f.z[k];
-    }
-}
-
-/* What pixels pass on to their neighbours a step along. */
+/* What pixels pass on to those a step along. */
 static void share_light(path_batch *batch, const path_context *c, uint32_t width, uint32_t height, int step,
                         bool has_seconds, path_counts *counts)
 {
     const render_loops *loops = render_loops_chosen();
     gradient_list *g = &batch->gradients;
     vertex_list *v = &batch->vertex_lists[0];
-    memset(g->passed, 0, sizeof g->passed);
+    find_neighbours(g, width, height, step);
     if (has_seconds) {
-        find_neighbours(g, width, height, step);
-        look_back(batch);
-    }
-    find_neighbours(g, width, height, -step);
-    for (uint32_t k = 0; k < v->n; k++) g->from[k] = g->beside[v->slot[k]];
-    if (has_seconds) {
-        reach(batch, c, counts);
-        loops->pass_on(v, g);
-        pass(g, v);
-    }
+        look_back(batch, step);
+        reach(batch, c, step, counts);
+        loops->pass_on(v, g, step);
+    } else memset(g->passed, 0, sizeof g->passed);
     if (g->has_lamps) {
-        reach_lamps(batch, c, counts);
-        loops->pass_lamps(v, g);
-        pass(g, v);
+        reach_lamps(batch, c, step, counts);
+        loops->pass_lamps(v, g, step);
     }
     loops->give(g, width*height, step);
 }

@@ -133,6 +133,18 @@ static uint32_t sort_by_material(path_batch *batch, const path_context *c, const
     return n_hits;
 }
 
+/* All paths in their own order; returns how many meet the sky, which are listed apart. */
+static uint32_t list_skies(path_batch *batch, const path_list *list)
+{
+    uint32_t n = 0;
+    for (uint32_t i = 0; i < list->n; i++) {
+        batch->order[i] = i;
+        batch->skies.path[n] = i;
+        n += batch->instance[i] == NO_HIT;
+    }
+    return n;
+}
+
 /* Path i goes on from a vertex. */
 static uint32_t add_vertex(path_batch *batch, const path_list *list, uint32_t i)
 {
@@ -190,25 +202,52 @@ static void add_surface(path_batch *batch, const path_context *c, const path_lis
     set3(&v->wo, k, to_local(&at.shading, wo));
 }
 
-/* The surfaces that paths have met: their emission is gathered, and those that scatter become vertices. */
-void stage_meet(path_batch *batch, const path_context *c, const path_list *list, bool is_last)
+/* In place of a vertex for path i: one that is black, and whose rays lie in its surface. */
+static void add_nothing(path_batch *batch, const path_list *list, uint32_t i)
+{
+    vertex_list *v = batch->vertices;
+    const uint32_t k = add_vertex(batch, list, i);
+    v->path[k] = NO_PATH;
+    v->bsdf[k] = k > 0 && batch_from(v, k - 1) ? v->bsdf[k - 1] : &batch->black; /* batches go on */
+    v->transmits[k] = 0;
+    v->offset[k] = v->facing[k] = 0;
+    vector_array *const zero[] = {&v->throughput, &v->position, &v->normal, &v->t, &v->b, &v->up};
+    for (size_t j = 0; j < sizeof zero/sizeof zero[0]; j++) set3(zero[j], k, splat3(0));
+    set3(&v->wo, k, make3(0, 0, 1));
+}
+
+/* The vertices of n paths, as far as their surfaces scatter. */
+static void add_vertices(path_batch *batch, const path_context *c, const path_list *list, const uint32_t *paths,
+                         uint32_t n, bool is_by_slot, bool is_last)
 {
     vertex_list *v = batch->vertices;
     const render_loops *loops = render_loops_chosen();
-    const uint32_t n_hits = sort_by_material(batch, c, list), *paths = batch->order;
-    gather_skies(batch, c, list, paths + n_hits, list->n - n_hits);
     v->n = 0;
-    for (uint32_t k = 0, n; k < n_hits; k += n) {
+    for (uint32_t k = 0, some; k < n; k += some) {
         const uint32_t n_before = v->n;
-        n = is_last ? 0 : add_plain(batch, c, list, paths + k, n_hits - k);
-        if (n == 0) {
-            surface_expect(c->surfaces, hits_of(batch), n_hits - k, paths + k);
-            add_surface(batch, c, list, paths[k], is_last);
-            n = 1;
+        some = is_last ? 0 : add_plain(batch, c, list, paths + k, n - k);
+        if (some == 0) {
+            some = 1;
+            surface_expect(c->surfaces, hits_of(batch), n - k, paths + k);
+            if (batch->instance[paths[k]] != NO_HIT) add_surface(batch, c, list, paths[k], is_last);
+            if (is_by_slot && v->n == n_before) add_nothing(batch, list, paths[k]);
         }
         if (v->n > n_before && v->n%LOOP_LANES == 0) loops->meet(v, v->n - LOOP_LANES, &batch->plain);
     }
     if (v->n%LOOP_LANES) loops->meet(v, v->n/LOOP_LANES*LOOP_LANES, &batch->plain);
+}
+
+void stage_meet(path_batch *batch, const path_context *c, const path_list *list, bool is_by_slot, bool is_last)
+{
+    if (is_by_slot) {
+        const uint32_t n = list_skies(batch, list);
+        gather_skies(batch, c, list, batch->skies.path, n);
+        add_vertices(batch, c, list, batch->order, list->n, is_by_slot, is_last);
+    } else {
+        const uint32_t n = sort_by_material(batch, c, list);
+        gather_skies(batch, c, list, batch->order + n, list->n - n);
+        add_vertices(batch, c, list, batch->order, n, is_by_slot, is_last);
+    }
     if (c->keeps_features)
-        for (uint32_t k = 0; k < v->n; k++) feature_of_vertex(batch, list, k);
+        for (uint32_t k = 0; k < batch->vertices->n; k++) feature_of_vertex(batch, list, k);
 }

@@ -69,10 +69,13 @@ typedef struct light_array {
     uint32_t is_infinite[ROOM], is_delta[ROOM];
 } light_array;
 
-/* Where paths meet surfaces that scatter, ordered by material.  The first arrays are copies of what the paths have. */
+/* Where paths meet surfaces that scatter, ordered by material, or the first ones, if their light is shared, by slot, so
+ * that neighbours are a step away: where there is none stands one that nothing comes from.  The first arrays are copies
+ * of what the paths have. */
+#define NO_PATH UINT32_MAX
 typedef struct vertex_list {
     uint32_t n;
-    LINE_ALIGNED uint32_t path[ROOM]; /* index into the list of paths */
+    LINE_ALIGNED uint32_t path[ROOM]; /* index into the list of paths; NO_PATH: there is no vertex here */
     uint32_t slot[ROOM], pixel[ROOM], index[ROOM];
     uint32_t chance[ROOM]; /* for roulette */
     vector_array throughput;
@@ -106,7 +109,8 @@ typedef struct shadow_list {
 
 /* Paths that leave the scene. */
 typedef struct sky_list {
-    LINE_ALIGNED vector_array direction;
+    LINE_ALIGNED uint32_t path[ROOM];
+    vector_array direction;
     float u[ROOM], v[ROOM]; /* sky_place */
 } sky_list;
 
@@ -133,35 +137,36 @@ enum { GRADIENT_STEPS = 12 };
 #define LEAST_EIGENVALUE 0.1f
 #define MOST_EIGENVALUE 2.0f
 
-/* What neighbouring pixels tell each other (stage_gradients.c), by slot if nothing else is said.  NO_SLOT is that of no
- * pixel; the lists of numbers for the equations have so much room before and after them that every pixel has four
- * neighbours. */
-enum { NO_SLOT = PATHS, NO_VERTEX = PATHS, MARGIN = TILE_SIZE, FRAMED = PATHS + 2*MARGIN };
+/* Numbers of pixels, with so much room before and after them that every pixel has four neighbours. */
+enum { MARGIN = TILE_SIZE, FRAMED = PATHS + 2*MARGIN };
+typedef struct framed_array {
+    float x[FRAMED], y[FRAMED], z[FRAMED];
+} framed_array;
+
+/* What neighbouring pixels tell each other (stage_gradients.c), by slot, which is the place of the first vertex as well,
+ * if nothing else is said; framed arrays begin at MARGIN but for `up`. */
 typedef struct gradient_list {
     LINE_ALIGNED vector_array apart; /* radiance that is not shared */
     bool has_lamps;                  /* for first vertices: */
-    uint32_t lamp[ROOM];             /* which was chosen, */
-    float lamp_probability[ROOM];    /* ... 0: none, */
-    double lamp_rest[ROOM];          /* ... and the numbers that draw the point on it */
-    uint32_t lamp_u[2][ROOM];
-    vector_array brought;    /* by it, if nothing is in the way */
-    uint32_t is_lit[ROOM];   /* whether nothing is */
+    uint32_t lamp[FRAMED];           /* which was chosen, */
+    float lamp_probability[FRAMED];  /* ... 0: none, */
+    double lamp_rest[FRAMED];        /* ... and the numbers that draw the point on it */
+    uint32_t lamp_u[2][FRAMED];
+    framed_array brought;    /* by it, if nothing is in the way */
+    uint32_t is_lit[FRAMED]; /* whether nothing is */
     vector_array near;       /* that of lights at the second vertex; the rest is path_batch.radiance */
-    uint32_t first[ROOM];    /* the first vertex, or NO_VERTEX */
-    uint32_t beside[ROOM];   /* the slot of a neighbour, or NO_SLOT */
-    float up[3][FRAMED];     /* its normal, 0 where there is none */
-    vector_array throughput; /* from the first vertex on */
+    float up[3][FRAMED];     /* the first vertex's normal, 0 where there is none */
+    framed_array throughput; /* from the first vertex on */
     float pdf[ROOM];         /* of the direction from there [1/sr]; 0: not of a lobe */
-    vector_array position, target, normal,
-        shading;            /* of the second vertex; target: just off it; normals on wo's side */
-    float density[ROOM];    /* of finding it from the first [1/m^2]; 0: nothing is shared */
-    vector_array own, seen; /* the light that is shared, and what the neighbour would see of it */
+    framed_array position, target, normal,
+        shading;              /* of the second vertex; target: just off it; normals on wo's side */
+    float density[FRAMED];    /* of finding it from the first [1/m^2]; 0: nothing is shared */
+    framed_array own, seen;   /* the light that is shared, and what the neighbour would see of it */
+    uint32_t is_beside[ROOM]; /* whether there is a pixel a step before */
     /* By second vertices: directions to the light and onwards, f cos for them and the path's own wo */
     vector_array to_light, onward, near_f, far_f, near_ratio;
-    uint32_t neighbour[ROOM]; /* first vertex of the neighbour, or NO_VERTEX */
-    /* By the neighbour's first vertices */
-    uint32_t from[ROOM];
-    float distance2[ROOM], cosine[ROOM]; /* at the second vertex */
+    /* Towards the second vertex of the pixel a step before */
+    float distance2[ROOM], cosine[ROOM]; /* at that vertex */
     /* The equations */
     LINE_ALIGNED float self[FRAMED];    /* weight of a pixel's own light */
     float right[FRAMED], below[FRAMED]; /* of its difference from a neighbour's */
@@ -182,6 +187,7 @@ struct path_batch {
     plain_block plain; /* vertices whose surfaces are still to be found */
     feature_list features;
     vertex_list *vertices;   /* those of the present event */
+    facet_bsdf black;        /* of first vertices that are not there */
     uint32_t *n_of_material; /* counts, then places, of two more than the scene's materials */
 };
 
@@ -292,8 +298,9 @@ void stage_generate(path_batch *batch, const path_context *c, tile where, uint32
 /* The nearest surface of every path's ray. */
 void stage_trace(path_batch *batch, const path_context *c, path_list *list, bool is_first, path_counts *counts);
 
-/* The surfaces that paths have met: their emission is gathered, and those that scatter become vertices. */
-void stage_meet(path_batch *batch, const path_context *c, const path_list *list, bool is_last);
+/* The surfaces that paths have met: their emission is gathered, and those that scatter become vertices, by slot or by
+ * material. */
+void stage_meet(path_batch *batch, const path_context *c, const path_list *list, bool is_by_slot, bool is_last);
 
 /* Explicit light connection. */
 void stage_connect(path_batch *batch, const path_context *c, uint32_t group, path_counts *counts);
