@@ -23,6 +23,7 @@ extern "C" {
 struct vertex_list;
 struct gradient_list;
 struct vector_array;
+struct ray_array;
 
 /* Of elements of 32 bits. */
 typedef struct packed_array {
@@ -38,6 +39,10 @@ typedef struct render_loops {
     /* The group's three numbers for n streams, as 32-bit fractions; NULL: not asked for. */
     void (*points)(const sampler *s, size_t n, const uint32_t *pixel, const uint32_t *index, uint32_t group,
                    uint32_t *const u[3]);
+    /* Rays from pixels x, y of a picture of that size, by the numbers u.  extent: half the picture's height at unit
+     * distance, or anywhere. */
+    void (*view)(const camera *camera, float extent, float width, float height, size_t n, const float *x,
+                 const float *y, uint32_t *const u[3], struct ray_array *r);
     /* Copies those of n elements for which keeps is 1, not 0, one after the other: their number. */
     uint32_t (*pack)(uint32_t n, const uint32_t *keeps, size_t n_arrays, const packed_array *arrays);
     /* sky_place of n directions. */

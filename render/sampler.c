@@ -7,15 +7,6 @@
 /* The side of the squares of pixels that share a point set is 2^MOST_SIDE_BITS, if an index of 32 bits has room. */
 enum { MOST_SIDE_BITS = 5 };
 
-/* The binary digits of two numbers in turn: a place on a curve through a square that visits each quarter in one go. */
-static uint32_t interleave(uint32_t x, uint32_t y)
-{
-    uint32_t z = 0;
-    for (uint32_t bit = 0; bit < MOST_SIDE_BITS; bit++)
-        z |= (x >> bit & 1) << 2*bit | (y >> bit & 1) << (2*bit + 1);
-    return z;
-}
-
 sampler sampler_create(sampler_kind kind, uint32_t seed, uint32_t spp)
 {
     sampler s = {.kind = kind, .seed = hash_pair(seed, 0x66616365u)};
@@ -24,13 +15,6 @@ sampler sampler_create(sampler_kind kind, uint32_t seed, uint32_t spp)
     while (s.side_bits < MOST_SIDE_BITS && s.sample_bits + 2*s.side_bits + 2 <= 32) s.side_bits++;
     s.index_mask = (uint32_t)(((uint64_t)1 << (s.sample_bits + 2*s.side_bits)) - 1);
     return s;
-}
-
-sample_stream sampler_start(const sampler *s, uint32_t x, uint32_t y, uint32_t index)
-{
-    const uint32_t mask = (1u << s->side_bits) - 1;
-    return (sample_stream){.pixel = hash_pair(hash_pair(s->seed, x >> s->side_bits), y >> s->side_bits),
-                           .index = interleave(x & mask, y & mask) << s->sample_bits | index};
 }
 
 sample_point sampler_point(const sampler *s, sample_stream stream, uint32_t group)

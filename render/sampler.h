@@ -37,7 +37,33 @@ typedef struct sample_stream {
     uint32_t index; /* of the point: the pixel's place in its square, then the sample's in the pixel */
 } sample_stream;
 
-sample_stream sampler_start(const sampler *s, uint32_t x, uint32_t y, uint32_t index);
+/* A well-mixed 32-bit hash of two. */
+static inline uint32_t hash_pair(uint32_t a, uint32_t b)
+{
+    uint64_t x = ((uint64_t)a << 32 | b) + 0x9e3779b97f4a7c15u; /* the finaliser of splitmix64 */
+    x = (x ^ x >> 30)*0xbf58476d1ce4e5b9u;
+    x = (x ^ x >> 27)*0x94d049bb133111ebu;
+    return (uint32_t)(x >> 32) ^ (uint32_t)x;
+}
+
+/* The binary digits of two numbers below 2^8 in turn: a place on a curve through a square that visits each quarter in
+ * one go. */
+static inline uint32_t interleave(uint32_t x, uint32_t y)
+{
+    uint32_t digits = x | y << 16;
+    digits = (digits | digits << 4) & 0x0f0f0f0fu;
+    digits = (digits | digits << 2) & 0x33333333u;
+    digits = (digits | digits << 1) & 0x55555555u;
+    return (digits & 0xffffu) | digits >> 16 << 1;
+}
+
+static inline sample_stream sampler_start(const sampler *s, uint32_t x, uint32_t y, uint32_t index)
+{
+    const uint32_t mask = (1u << s->side_bits) - 1;
+    const sample_stream stream = {.pixel = hash_pair(hash_pair(s->seed, x >> s->side_bits), y >> s->side_bits),
+                                  .index = interleave(x & mask, y & mask) << s->sample_bits | index};
+    return stream;
+}
 
 /* The three numbers of a group as 32-bit fractions.  Groups are numbered by the integrator. */
 typedef struct sample_point {
@@ -49,15 +75,6 @@ sample_point sampler_point(const sampler *s, sample_stream stream, uint32_t grou
 static inline float fraction(uint32_t u)
 {
     return (float)(u >> 8)*0x1p-24f;
-}
-
-/* A well-mixed 32-bit hash of two. */
-static inline uint32_t hash_pair(uint32_t a, uint32_t b)
-{
-    uint64_t x = ((uint64_t)a << 32 | b) + 0x9e3779b97f4a7c15u; /* the finaliser of splitmix64 */
-    x = (x ^ x >> 30)*0xbf58476d1ce4e5b9u;
-    x = (x ^ x >> 27)*0x94d049bb133111ebu;
-    return (uint32_t)(x >> 32) ^ (uint32_t)x;
 }
 
 #ifdef __cplusplus

@@ -6,7 +6,7 @@
 static void find_pdf(vertex_list *v)
 {
     for (uint32_t first = 0, n; first < v->n; first += n) {
-        n = batch_from(v, first);
+        n = v->n_alike[first];
         if (n > 0) {
             facet_bsdf_pdf_batch(v->bsdf[first], n, dirs_at(&v->wi, first), dirs_at(&v->wo, first), v->pdf + first);
             continue;
@@ -46,7 +46,7 @@ void vertices_aim(vertex_list *v, const path_context *c)
 void vertices_evaluate(vertex_list *v)
 {
     for (uint32_t first = 0, n; first < v->n; first += n) {
-        n = batch_from(v, first);
+        n = v->n_alike[first];
         if (n > 0) {
             facet_bsdf_eval_pdf_batch(v->bsdf[first], n, dirs_at(&v->wi, first), dirs_at(&v->wo, first),
                                       (facet_rgb){v->f.x + first, v->f.y + first, v->f.z + first}, v->pdf + first);

@@ -224,16 +224,15 @@ static void look_back(path_batch *batch, int step)
     loops->contrast(v, &g->near_f, &g->near_ratio);
     evaluate_seconds(v, &g->onward);
     loops->contrast(v, &g->far_f, &v->f);
-    for (uint32_t k = 0; k < v->n; k++) {
+    for (uint32_t k = 0; k < v->n; k++) { /* where nothing is shared, nobody asks for it */
         const uint32_t slot = v->slot[k];
-        if (!(g->density[MARGIN + slot] > 0)) continue;
         const real3 near = get3(&g->near, slot), far = get3(&batch->radiance, slot);
         const real3 near_ratio = get3(&g->near_ratio, k), far_ratio = get3(&v->f, k);
         put3(&g->seen, slot, add3(mul3(near_ratio, near), mul3(far_ratio, far)));
         put3(&g->own, slot,
-             make3((near_ratio.x > 0 ? near.x : 0) + (far_ratio.x > 0 ? far.x : 0),
-                   (near_ratio.y > 0 ? near.y : 0) + (far_ratio.y > 0 ? far.y : 0),
-                   (near_ratio.z > 0 ? near.z : 0) + (far_ratio.z > 0 ? far.z : 0)));
+             make3(keep_if(near_ratio.x > 0, near.x) + keep_if(far_ratio.x > 0, far.x),
+                   keep_if(near_ratio.y > 0, near.y) + keep_if(far_ratio.y > 0, far.y),
+                   keep_if(near_ratio.z > 0, near.z) + keep_if(far_ratio.z > 0, far.z)));
     }
 }
 

@@ -7,6 +7,33 @@ static inline real3 lane3(const vector_array *a, size_t k)
     return make3(a->x[k], a->y[k], a->z[k]);
 }
 
+static inline void put_lane3(vector_array *a, size_t k, real3 v)
+{
+    a->x[k] = v.x;
+    a->y[k] = v.y;
+    a->z[k] = v.z;
+}
+
+static void view(const camera *given, float extent, float width, float height, size_t n, const float *x, const float *y,
+                 uint32_t *const u[3], ray_array *r)
+{
+    const camera c = *given;
+    const float of_place = c.is_orthographic ? 1 : 0, of_direction = 1 - of_place; /* what the pixel moves */
+    for (size_t first = 0; first < n; first += BLOCK) EACH_LANE(i)
+        {
+            const size_t k = first + i;
+            const float px = x[k] + fraction(u[0][k]), py = y[k] + fraction(u[1][k]);
+            const float right = (2*px/width - 1)*width/height*extent, up = (1 - 2*py/height)*extent;
+            const real3 place = make3(of_place*right, of_place*up, 0),
+                        ahead = make3(of_direction*right, of_direction*up, -1);
+            put_lane3(&r->origin, k, map_point(c.to_world, place));
+            put_lane3(&r->direction, k, normalize3(map_vector(c.to_world, ahead)));
+            r->t_min[k] = 0;
+            r->t_max[k] = INFINITY;
+            r->seed[k] = u[2][k];
+        }
+}
+
 /* to_local and to_world in the vertex's frame; gcc would keep a record of it in memory. */
 static inline real3 lane_to_local(const vertex_list *v, size_t k, real3 d)
 {
@@ -140,7 +167,6 @@ static void connect(vertex_list *v, bool is_mis)
             v->ray.direction.x[k] = is_infinite ? direction.x : v->light.target.x[k] - v->ray.origin.x[k];
             v->ray.direction.y[k] = is_infinite ? direction.y : v->light.target.y[k] - v->ray.origin.y[k];
             v->ray.direction.z[k] = is_infinite ? direction.z : v->light.target.z[k] - v->ray.origin.z[k];
-            v->ray.t_min[k] = 0;
             v->ray.t_max[k] = is_infinite ? INFINITY : 1;
             v->ray.seed[k] = v->u[0][k] ^ v->u[1][k];
         }
@@ -169,8 +195,6 @@ static void scatter(vertex_list *v, bool has_roulette)
             v->ray.direction.x[k] = wi.x;
             v->ray.direction.y[k] = wi.y;
             v->ray.direction.z[k] = wi.z;
-            v->ray.t_min[k] = 0;
-            v->ray.t_max[k] = INFINITY;
             v->ray.seed[k] = v->u[0][k] ^ v->u[2][k];
         }
 }

@@ -202,13 +202,30 @@ static void add_surface(path_batch *batch, const path_context *c, const path_lis
     set3(&v->wo, k, to_local(&at.shading, wo));
 }
 
+/* Whether batches serve the vertex's bsdf. */
+static bool is_batched(const vertex_list *v, uint32_t k)
+{
+    return v->bsdf[k] != &v->own[k] && !(facet_bsdf_lobes(v->bsdf[k]) & (FACET_DELTA | FACET_TRANSMISSION));
+}
+
+static void count_alike(vertex_list *v)
+{
+    const facet_bsdf *next = NULL;
+    uint32_t n = 0;
+    for (uint32_t k = v->n; k-- > 0; next = v->bsdf[k]) {
+        if (v->bsdf[k] == next) n += n > 0;
+        else n = is_batched(v, k);
+        v->n_alike[k] = n;
+    }
+}
+
 /* In place of a vertex for path i: one that is black, and whose rays lie in its surface. */
 static void add_nothing(path_batch *batch, const path_list *list, uint32_t i)
 {
     vertex_list *v = batch->vertices;
     const uint32_t k = add_vertex(batch, list, i);
     v->path[k] = NO_PATH;
-    v->bsdf[k] = k > 0 && batch_from(v, k - 1) ? v->bsdf[k - 1] : &batch->black; /* batches go on */
+    v->bsdf[k] = k > 0 && is_batched(v, k - 1) ? v->bsdf[k - 1] : &batch->black; /* batches go on */
     v->transmits[k] = 0;
     v->offset[k] = v->facing[k] = 0;
     vector_array *const zero[] = {&v->throughput, &v->position, &v->normal, &v->t, &v->b, &v->up};
@@ -235,6 +252,7 @@ static void add_vertices(path_batch *batch, const path_context *c, const path_li
         if (v->n > n_before && v->n%LOOP_LANES == 0) loops->meet(v, v->n - LOOP_LANES, &batch->plain);
     }
     if (v->n%LOOP_LANES) loops->meet(v, v->n/LOOP_LANES*LOOP_LANES, &batch->plain);
+    count_alike(v);
 }
 
 void stage_meet(path_batch *batch, const path_context *c, const path_list *list, bool is_by_slot, bool is_last)

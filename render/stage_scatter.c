@@ -12,7 +12,7 @@ static void sample(const path_context *c, vertex_list *v, uint32_t group)
     for (uint32_t k = 0; k < v->n; k++)
         set3(&v->number, k, make3(fraction(u[0][k]), fraction(u[1][k]), fraction(u[2][k])));
     for (uint32_t first = 0, n; first < v->n; first += n) {
-        n = batch_from(v, first);
+        n = v->n_alike[first];
         if (n > 0) {
             facet_bsdf_sample_batch(v->bsdf[first], n, dirs_at(&v->wo, first), dirs_at(&v->number, first),
                                     (facet_samples){v->wi.x + first, v->wi.y + first, v->wi.z + first, v->pdf + first,

@@ -87,6 +87,7 @@ typedef struct vertex_list {
     float facing[ROOM];       /* cosine between wo and the normal: its sign tells the side */
     uint32_t transmits[ROOM]; /* all bits, or none */
     const facet_bsdf *bsdf[ROOM];
+    uint32_t n_alike[ROOM]; /* how many from here on share a bsdf that batches serve; 0: they do not */
     facet_bsdf own[ROOM];
     receiver_array receiver; /* if the lights ask for it */
     /* Scattering */
@@ -97,7 +98,7 @@ typedef struct vertex_list {
     uint32_t lobe[ROOM];
     float eta[ROOM];
     light_array light;
-    ray_array ray;        /* towards the light, or scattered */
+    ray_array ray;        /* towards the light, or scattered; it starts at 0 */
     uint32_t keeps[ROOM]; /* whether that ray is traced */
 } vertex_list;
 
@@ -175,7 +176,8 @@ typedef struct gradient_list {
 
 struct path_batch {
     path_list lists[2];
-    vector_array radiance; /* gathered so far, by slot */
+    vector_array radiance;   /* gathered so far, by slot */
+    float x[ROOM], y[ROOM]; /* the pixels, by slot */
     float t[ROOM], u[ROOM], v[ROOM];
     uint32_t instance[ROOM], primitive[ROOM];
     uint32_t chance[3][ROOM];
@@ -280,16 +282,6 @@ static inline float power_heuristic(float a, float b)
 {
     const float ratio = b/a; /* squares of densities overflow, squares of their ratio do so harmlessly */
     return 1/(1 + ratio*ratio);
-}
-
-/* Vertices from `first` on that share a bsdf which batches serve: their number, 0 if the first is none. */
-static inline uint32_t batch_from(const vertex_list *v, uint32_t first)
-{
-    const facet_bsdf *bsdf = v->bsdf[first];
-    if (bsdf == &v->own[first] || facet_bsdf_lobes(bsdf) & (FACET_DELTA | FACET_TRANSMISSION)) return 0;
-    uint32_t n = 1;
-    while (first + n < v->n && v->bsdf[first + n] == bsdf) n++;
-    return n;
 }
 
 /* One path per pixel of the tile, with its camera ray, into the first list. */
