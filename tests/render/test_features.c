@@ -21,7 +21,7 @@ typedef struct feature_pictures {
     image albedo, normal, distance;
 } feature_pictures;
 
-static feature_pictures render_features(const scene *s, uint32_t spp)
+static feature_pictures render_shared(const scene *s, uint32_t spp, gradients way)
 {
     feature_pictures p = {0};
     render_settings r;
@@ -30,6 +30,7 @@ static feature_pictures render_features(const scene *s, uint32_t spp)
     r.spp = spp;
     r.n_threads = 1;
     r.keeps_features = true;
+    r.gradients = way;
     assert_int_equal(render_continue(s, &r, &p.state, &p.result, NULL), FACET_OK);
     assert_int_equal(film_develop_layer(&p.state.film, FILM_ALBEDO, &p.albedo), FACET_OK);
     assert_int_equal(film_develop_layer(&p.state.film, FILM_NORMAL, &p.normal), FACET_OK);
@@ -41,6 +42,11 @@ static feature_pictures render_features(const scene *s, uint32_t spp)
         assert_true(((const float *)p.distance.pixels)[i] > 0);
     }
     return p;
+}
+
+static feature_pictures render_features(const scene *s, uint32_t spp)
+{
+    return render_shared(s, spp, GRADIENTS_AUTO);
 }
 
 static void features_destroy(feature_pictures *p)
@@ -160,6 +166,27 @@ static void the_picture_does_not_depend_on_features(void **state)
     scene_destroy(s);
 }
 
+/* Where light is shared, first vertices lie in another order, with gaps where paths meet the sky and what only emits. */
+static void features_do_not_depend_on_shared_light(void **state)
+{
+    (void)state;
+    scene *s = wall_behind("ggx alpha=.3 ks=.8 kd=.1");
+    build_sphere(s, build_material(s, "lambert kd=.2,.5,.9", 0, true), -.3f, 0, 0, .25f);
+    build_sphere(s, build_material(s, "glass ior=1.5", 0, true), .3f, 0, 0, .25f);
+    build_sphere(s, build_gltf_material(s, .5f, 1, .2f), 0, .35f, 0, .15f);
+    build_sphere(s, build_material(s, "lambert kd=0", 2, true), 0, -.35f, 0, .15f);
+    s->instances[0].to_world[0][3] = 9; /* the wall is half as wide as the view */
+    feature_pictures shared = render_shared(s, 4, GRADIENTS_ON), alone = render_shared(s, 4, GRADIENTS_OFF);
+    assert_true(shared.result.has_gradients && !alone.result.has_gradients);
+    const size_t n = sizeof(float)*SIZE*SIZE;
+    assert_memory_equal(shared.albedo.pixels, alone.albedo.pixels, 3*n);
+    assert_memory_equal(shared.normal.pixels, alone.normal.pixels, 3*n);
+    assert_memory_equal(shared.distance.pixels, alone.distance.pixels, n);
+    features_destroy(&alone);
+    features_destroy(&shared);
+    scene_destroy(s);
+}
+
 int main(void)
 {
     const struct CMUnitTest tests[] = {
@@ -168,6 +195,7 @@ int main(void)
         cmocka_unit_test(mirrors_show_what_they_reflect),
         cmocka_unit_test(what_emits_has_its_radiance_up_to_one),
         cmocka_unit_test(the_picture_does_not_depend_on_features),
+        cmocka_unit_test(features_do_not_depend_on_shared_light),
     };
     return cmocka_run_group_tests_name("features", tests, NULL, NULL);
 }
