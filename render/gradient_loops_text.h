@@ -17,8 +17,7 @@ static inline real3 at3(vectors v, size_t k)
 static void reach(vertex_list *v, gradient_list *g, ptrdiff_t step)
 {
     const vectors position = before(&g->position, step), target = before(&g->target, step),
-                  normals = before(&g->normal, step), shading = before(&g->shading, step),
-                  own = before(&g->own, step);
+                  normals = before(&g->normal, step), shading = before(&g->shading, step), own = before(&g->own, step);
     const float *density = g->density + MARGIN - step;
     for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
         {
@@ -31,12 +30,8 @@ static void reach(vertex_list *v, gradient_list *g, ptrdiff_t step)
             const float lack = least_mirror_cosine(cos) - mirror_cosine(at3(shading, k), normal, wo);
             const int is_shared = (g->is_beside[k] != 0) & (density[k] > 0) & (max_of3(at3(own, k)) > 0);
             v->light.pdf[k] = keep_if(is_shared & (cos > 0) & (lack <= 0), 1);
-            v->light.direction.x[k] = direction.x;
-            v->light.direction.y[k] = direction.y;
-            v->light.direction.z[k] = direction.z;
-            v->light.target.x[k] = target.x[k];
-            v->light.target.y[k] = target.y[k];
-            v->light.target.z[k] = target.z[k];
+            put_lane3(&v->light.direction, k, direction);
+            put_lane3(&v->light.target, k, at3(target, k));
             v->light.radiance.x[k] = v->light.radiance.y[k] = v->light.radiance.z[k] = 1;
             v->light.is_infinite[k] = v->light.is_delta[k] = 0;
             g->distance2[k] = d2;
@@ -76,7 +71,8 @@ static inline float lamp_passed_on(float own, float seen, float lit)
 
 static void take_lamps(vertex_list *v, const gradient_list *g, ptrdiff_t step)
 {
-    const uint32_t *lamp = g->lamp + MARGIN - step, *x = g->lamp_u[0] + MARGIN - step, *y = g->lamp_u[1] + MARGIN - step;
+    const uint32_t *lamp = g->lamp + MARGIN - step, *x = g->lamp_u[0] + MARGIN - step,
+                   *y = g->lamp_u[1] + MARGIN - step;
     const float *probability = g->lamp_probability + MARGIN - step;
     const double *rest = g->lamp_rest + MARGIN - step;
     for (size_t first = 0; first < v->n; first += BLOCK) {
@@ -117,9 +113,7 @@ static void look_back(vertex_list *v, const vertex_list *neighbours, ptrdiff_t s
             const size_t k = first + i, j = (v->slot[k] + (uint32_t)step)%PATHS; /* any where there is none */
             const real3 d = sub3(lane3(&neighbours->position, j), lane3(&v->position, k));
             const real3 wo = lane_to_local(v, k, scale3(1/ksqrt(kmax(dot3(d, d), REAL_MIN)), d));
-            v->wo.x[k] = wo.x;
-            v->wo.y[k] = wo.y;
-            v->wo.z[k] = wo.z;
+            put_lane3(&v->wo, k, wo);
         }
 }
 

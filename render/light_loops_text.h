@@ -333,7 +333,7 @@ static void light(uint32_t n_triangles, const light_triangle *triangles, size_t 
 }
 
 static void light_any(const light_triangle *const *chosen, const float *probability, size_t n, vectors from,
-                       uint32_t *const u[3], light_samples s)
+                      uint32_t *const u[3], light_samples s)
 {
     for (size_t first = 0; first < n; first += BLOCK) {
         light_block b;

@@ -29,5 +29,6 @@ void stage_generate(path_batch *batch, const path_context *c, tile where, uint32
     uint32_t *const u[3] = {batch->chance[0], batch->chance[1], batch->chance[2]};
     loops->points(&c->sampler, n, list->pixel, list->index, GROUP_CAMERA, u);
     const float extent = c->camera->is_orthographic ? c->camera->ymag : tanf(0.5f*c->camera->yfov);
-    loops->view(c->camera, extent, (float)c->settings->width, (float)c->settings->height, n, batch->x, batch->y, u, &list->ray);
+    loops->view(c->camera, extent, (float)c->settings->width, (float)c->settings->height, n, batch->x, batch->y, u,
+                &list->ray);
 }

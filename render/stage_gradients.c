@@ -197,7 +197,8 @@ static void evaluate_paths(path_batch *batch)
     gradient_list *g = &batch->gradients;
     vertex_list *v = &batch->vertex_lists[1];
     g->onward = v->wi;
-    for (uint32_t k = 0; k < v->n; k++) v->light.pdf[k] = g->density[MARGIN + v->slot[k]] > 0; /* else f is not asked for */
+    for (uint32_t k = 0; k < v->n; k++)
+        v->light.pdf[k] = g->density[MARGIN + v->slot[k]] > 0; /* else f is not asked for */
     evaluate_seconds(v, &g->to_light);
     g->near_f = v->f;
     evaluate_seconds(v, &g->onward);

@@ -114,9 +114,7 @@ static void aim(vertex_list *v, bool is_implicit)
             const uint32_t through = (bits_of(wi.z) ^ bits_of(v->wo.z[k])) & SIGN_BIT & v->transmits[k];
             const float pdf = keep_if((v->light.is_delta[k] | is_any) != 0, v->light.pdf[k]);
             v->light.pdf[k] = keep_if(true_side(v, k, direction, through) > 0, pdf);
-            v->wi.x[k] = wi.x;
-            v->wi.y[k] = wi.y;
-            v->wi.z[k] = wi.z;
+            put_lane3(&v->wi, k, wi);
         }
 }
 
@@ -135,16 +133,7 @@ static void find_sky(size_t n, vectors direction, float *u, float *v)
 static inline void leave(vertex_list *v, size_t k, real3 direction)
 {
     const real3 origin = leave_surface(lane3(&v->position, k), lane3(&v->normal, k), v->offset[k], direction);
-    v->ray.origin.x[k] = origin.x;
-    v->ray.origin.y[k] = origin.y;
-    v->ray.origin.z[k] = origin.z;
-}
-
-static inline void carry(vertex_list *v, size_t k, real3 light)
-{
-    v->f.x[k] = light.x;
-    v->f.y[k] = light.y;
-    v->f.z[k] = light.z;
+    put_lane3(&v->ray.origin, k, origin);
 }
 
 static void connect(vertex_list *v, bool is_mis)
@@ -162,7 +151,7 @@ static void connect(vertex_list *v, bool is_mis)
             const real3 light = mul3(f, scale3(weight/pdf, lane3(&v->light.radiance, k)));
             const real3 brings = mul3(lane3(&v->throughput, k), light);
             v->keeps[k] = keeps;
-            carry(v, k, make3(keep_if(keeps, brings.x), keep_if(keeps, brings.y), keep_if(keeps, brings.z)));
+            put_lane3(&v->f, k, make3(keep_if(keeps, brings.x), keep_if(keeps, brings.y), keep_if(keeps, brings.z)));
             leave(v, k, direction);
             v->ray.direction.x[k] = is_infinite ? direction.x : v->light.target.x[k] - v->ray.origin.x[k];
             v->ray.direction.y[k] = is_infinite ? direction.y : v->light.target.y[k] - v->ray.origin.y[k];
@@ -189,12 +178,10 @@ static void scatter(vertex_list *v, bool has_roulette)
             /* Russian roulette: the paths that go on carry what the others would have. */
             const float share = max_of3(throughput)*eta_scale*enough;
             v->keeps[k] = fraction(v->chance[k]) < keep_if(v->pdf[k] > 0, keep_if(side > 0, share));
-            carry(v, k, scale3(1/kmin(share, 1), throughput));
+            put_lane3(&v->f, k, scale3(1/kmin(share, 1), throughput));
             v->eta_scale[k] = eta_scale;
             leave(v, k, wi);
-            v->ray.direction.x[k] = wi.x;
-            v->ray.direction.y[k] = wi.y;
-            v->ray.direction.z[k] = wi.z;
+            put_lane3(&v->ray.direction, k, wi);
             v->ray.seed[k] = v->u[0][k] ^ v->u[2][k];
         }
 }

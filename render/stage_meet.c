@@ -160,8 +160,8 @@ static uint32_t add_vertex(path_batch *batch, const path_list *list, uint32_t i)
     return k;
 }
 
-/* Vertices of surfaces that loops find, a block of them at once, for the first of n paths: their number, 0 if that of the
- * very first is of another kind. */
+/* Vertices of surfaces that loops find, a block of them at once, for the first of n paths: their number, 0 if the very
+ * first surface is of another kind. */
 static uint32_t add_plain(path_batch *batch, const path_context *c, const path_list *list, const uint32_t *paths,
                           uint32_t n)
 {

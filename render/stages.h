@@ -144,8 +144,8 @@ typedef struct framed_array {
     float x[FRAMED], y[FRAMED], z[FRAMED];
 } framed_array;
 
-/* What neighbouring pixels tell each other (stage_gradients.c), by slot, which is the place of the first vertex as well,
- * if nothing else is said; framed arrays begin at MARGIN but for `up`. */
+/* What neighbouring pixels tell each other (stage_gradients.c), by slot if nothing else is said, which is the place of
+ * the first vertex, too.  Framed arrays begin at MARGIN, but `up` at 0. */
 typedef struct gradient_list {
     LINE_ALIGNED vector_array apart; /* radiance that is not shared */
     bool has_lamps;                  /* for first vertices: */
@@ -176,7 +176,7 @@ typedef struct gradient_list {
 
 struct path_batch {
     path_list lists[2];
-    vector_array radiance;   /* gathered so far, by slot */
+    vector_array radiance;  /* gathered so far, by slot */
     float x[ROOM], y[ROOM]; /* the pixels, by slot */
     float t[ROOM], u[ROOM], v[ROOM];
     uint32_t instance[ROOM], primitive[ROOM];

@@ -43,8 +43,8 @@ void surface_set_destroy(surface_set *set);
 void surface_find(const surface_set *set, const ray *r, const hit *h, real3 wo, float choice, facet_bsdf *own,
                   surface *at);
 
-/* A block of hits of plain triangles: of one bsdf, without emission, whose frames are those of their normals; loops find
- * them (surface_loops_text.h).  Lanes keep what they have of an instance until another comes. */
+/* A block of hits of plain triangles: of one bsdf, without emission, whose frames are those of their normals.  Loops
+ * find them (surface_loops_text.h).  Lanes keep what they have of an instance until another comes. */
 typedef struct plain_block {
     float corners[3][3][LOOP_LANES], normals[3][3][LOOP_LANES]; /* of the triangles, as their mesh has them */
     float u[LOOP_LANES], v[LOOP_LANES];

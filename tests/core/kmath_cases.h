@@ -423,7 +423,7 @@ static void beta_stays_below_the_stated_bound(void **state)
 /* equal, and for zeros of the same sign */
 static void assert_same(const char *text, real got, real want)
 {
-    if (!(got == want) || signbit(got) != signbit(want)) {
+    if (!(got == want) || !signbit(got) != !signbit(want)) {
         print_message("%s = %a, should be %a\n", text, (double)got, (double)want);
         fail();
     }

@@ -166,7 +166,7 @@ static void the_picture_does_not_depend_on_features(void **state)
     scene_destroy(s);
 }
 
-/* Where light is shared, first vertices lie in another order, with gaps where paths meet the sky and what only emits. */
+/* Where light is shared, first vertices lie in another order, with gaps where paths meet the sky. */
 static void features_do_not_depend_on_shared_light(void **state)
 {
     (void)state;

@@ -52,8 +52,8 @@ typedef struct sample_block {
 static light_samples samples_in(sample_block *b)
 {
     float(*of)[LOOP_LANES] = b->of;
-    return (light_samples){{of[0], of[1], of[2]}, {of[3], of[4], of[5]}, {of[6], of[7], of[8]},
-                           of[9],                 b->is_infinite,        b->is_delta};
+    return (light_samples){
+        {of[0], of[1], of[2]}, {of[3], of[4], of[5]}, {of[6], of[7], of[8]}, of[9], b->is_infinite, b->is_delta};
 }
 
 static real3 draw3(draws *d)

@@ -123,9 +123,9 @@ static void the_loops_find_what_surface_find_finds(void **state)
             memset(lists[i], 0, sizeof *lists[i]);
             lists[i]->n = N;
             for (uint32_t k = 0; k < N; k += 16) { /* a lane after each 15 that another kind of surface has filled */
-                assert_int_equal(surface_load_plain(set, met, 15, order + k, block, k, lists[i]->bsdf + k,
-                                                    lists[i]->transmits + k),
-                                 15);
+                assert_int_equal(
+                    surface_load_plain(set, met, 15, order + k, block, k, lists[i]->bsdf + k, lists[i]->transmits + k),
+                    15);
                 for (uint32_t j = k; j < k + 15; j++) {
                     assert_non_null(lists[i]->bsdf[j]);
                     set3(&lists[i]->wi, j, wo[j]);
