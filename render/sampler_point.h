@@ -20,10 +20,10 @@ static inline uint32_t sobol_second(uint32_t index)
     return index ^ index >> 16;
 }
 
-/* The third, of p = x^2 + x + 1 (m = 1, 3; Joe and Kuo 2008): bit k of the index adds x^k, where a factor p stands for
- * a step by two digits.  Hence the digits are those of the index, as a polynomial modulo 2, in the base p.  p to a power
- * of two has three terms as well: the quotient by x^16 + x^8 + 1 is what lies above x^16 and, 8 lower, above x^24; it
- * and the rest are divided by x^8 + x^4 + 1, and so on. */
+/* The third, of p = x^2 + x + 1 (m = 1, 3; Joe and Kuo 2008): bit k of the index adds x^k, where a factor p stands
+ * for a step by two digits.  Hence the digits are those of the index, as a polynomial modulo 2, in the base p.  p to a
+ * power of two has three terms as well: the quotient by x^16 + x^8 + 1 is what lies above x^16 and, 8 lower, above
+ * x^24; it and the rest are divided by x^8 + x^4 + 1, and so on. */
 static inline uint32_t sobol_third(uint32_t index)
 {
     uint32_t x = index ^ (index >> 8 & 0x00ff0000u), quotient = x >> 16;
