@@ -56,7 +56,7 @@ static render_result run(const scene *s, uint32_t spp, uint32_t n_threads, uint3
     settings.n_threads = n_threads;
     settings.seed = seed;
     settings.sampler = sampler;
-    settings.gradients = sampler == SAMPLER_SOBOL ? GRADIENTS_ON
+    settings.gradients = sampler == SAMPLER_SOBOL ? GRADIENTS_AUTO
                                                   : GRADIENTS_OFF; /* the other is what this is held against */
     settings.strategy = how;
     render_result result;

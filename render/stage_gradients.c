@@ -205,7 +205,7 @@ static void evaluate_paths(path_batch *batch)
     g->far_f = v->f;
 }
 
-/* Which pixels have one a step before.  step: 1, -1, width or -width, in slots. */
+/* Which pixels have one a step before.  step: 1, -1, width or -width, in slots; a single column has none. */
 static void find_neighbours(gradient_list *g, uint32_t width, uint32_t height, int step)
 {
     const int n = (int)(width*height), rows = step == 1 || step == -1 ? 0 : step;

@@ -37,6 +37,7 @@ FIGURES = [
     Figure("lights", [("epyc-2vcpu/many_lights_by_power.csv", "by power", "#c0392b"),
                       ("epyc-2vcpu-avx2/many_lights_alone.csv", "tree", "#1f6fb2"),
                       ("epyc-2vcpu-avx2/many_lights.csv", "shared", "#27864a"),
+                      ("epyc-2vcpu-avx2/many_lights_ceiling.csv", "ceiling", "#b8860b"),
                       ("epyc-2vcpu-avx2/many_lights_meshes.csv", "ten lamps", "#8e5ea2")], (1, 5), (-2, 3)),
     Figure("triangles", [("epyc-2vcpu/many_triangles.csv", "alone", "#1f6fb2"),
                          ("epyc-2vcpu-avx2/many_triangles.csv", "shared", "#27864a")], (4, 7), (1, 4)),
@@ -62,6 +63,7 @@ def draw(figure):
         out += [line(LEFT, y, LEFT + WIDTH, y), text(LEFT - 8, y + 4, f"{10**decade:g}", "end")]
     out += [text(LEFT + WIDTH/2, TOP + HEIGHT + 38, figure.what),
             text(LEFT + 8, TOP + 14, "CPU seconds to an error of 2 %", "start")]
+    labels = []
     for name, words, color in figure.curves:
         with open(RESULTS/name, newline="", encoding="ascii") as file:
             points = [(figure.x_of(float(row[figure.what])), figure.y_of(float(row["seconds_to_2_percent"])))
@@ -69,8 +71,11 @@ def draw(figure):
         path = "L".join(f"{x:.1f} {y:.1f}" for x, y in points)
         out += [f'<path d="M{path}" fill="none" stroke="{color}" stroke-width="2"/>']
         out += [f'<circle cx="{x:.1f}" cy="{y:.1f}" r="3" fill="{color}"/>' for x, y in points]
-        if words:
-            out += [text(points[-1][0] + 10, points[-1][1] + 4, words, "start", color)]
+        labels += [(points[-1][1], words, color)]
+    lowest = 0  # labels of curves that end near each other are moved apart
+    for y, words, color in sorted(labels):
+        lowest = max(y + 4, lowest + 14)
+        out += [text(LEFT + WIDTH + 10, lowest, words, "start", color)]
     return "\n".join(out + ["</svg>", ""])
 
 
