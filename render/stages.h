@@ -69,13 +69,15 @@ typedef struct light_array {
     uint32_t is_infinite[ROOM], is_delta[ROOM];
 } light_array;
 
-/* Where paths meet surfaces that scatter, ordered by material, or the first ones, if their light is shared, by slot, so
- * that neighbours are a step away: where there is none stands one that nothing comes from.  The first arrays are copies
- * of what the paths have. */
+/* The path of a vertex that is not there. */
 #define NO_PATH UINT32_MAX
+
+/* Where paths meet surfaces that scatter, ordered by material; the first ones, if light is shared, by slot, so that
+ * neighbours are a step away: where a pixel has none stands one that nothing comes from.  The first arrays are copies
+ * of what the paths have. */
 typedef struct vertex_list {
     uint32_t n;
-    LINE_ALIGNED uint32_t path[ROOM]; /* index into the list of paths; NO_PATH: there is no vertex here */
+    LINE_ALIGNED uint32_t path[ROOM]; /* index into the list of paths, or NO_PATH */
     uint32_t slot[ROOM], pixel[ROOM], index[ROOM];
     uint32_t chance[ROOM]; /* for roulette */
     vector_array throughput;
@@ -102,6 +104,7 @@ typedef struct vertex_list {
     uint32_t keeps[ROOM]; /* whether that ray is traced */
 } vertex_list;
 
+/* Rays towards lights. */
 typedef struct shadow_list {
     uint32_t n;
     LINE_ALIGNED ray_array ray;
@@ -153,17 +156,17 @@ typedef struct gradient_list {
     float lamp_probability[FRAMED];  /* ... 0: none, */
     double lamp_rest[FRAMED];        /* ... and the numbers that draw the point on it */
     uint32_t lamp_u[2][FRAMED];
-    framed_array brought;    /* by it, if nothing is in the way */
-    uint32_t is_lit[FRAMED]; /* whether nothing is */
-    vector_array near;       /* that of lights at the second vertex; the rest is path_batch.radiance */
-    float up[3][FRAMED];     /* the first vertex's normal, 0 where there is none */
-    framed_array throughput; /* from the first vertex on */
-    float pdf[ROOM];         /* of the direction from there [1/sr]; 0: not of a lobe */
-    framed_array position, target, normal,
-        shading;              /* of the second vertex; target: just off it; normals on wo's side */
-    float density[FRAMED];    /* of finding it from the first [1/m^2]; 0: nothing is shared */
-    framed_array own, seen;   /* the light that is shared, and what the neighbour would see of it */
-    uint32_t is_beside[ROOM]; /* whether there is a pixel a step before */
+    framed_array brought;          /* by it, if nothing is in the way */
+    uint32_t is_lit[FRAMED];       /* whether nothing is */
+    vector_array near;             /* that of lights at the second vertex; the rest is path_batch.radiance */
+    float up[3][FRAMED];           /* the first vertex's normal, 0 where there is none */
+    framed_array throughput;       /* from the first vertex on */
+    float pdf[ROOM];               /* of the direction from there [1/sr]; 0: not of a lobe */
+    framed_array position, target; /* of the second vertex, and just off it */
+    framed_array normal, shading;  /* ... its normals, on wo's side */
+    float density[FRAMED];         /* of finding it from the first [1/m^2]; 0: nothing is shared */
+    framed_array own, seen;        /* the light that is shared, and what the neighbour would see of it */
+    uint32_t is_beside[ROOM];      /* whether there is a pixel a step before */
     /* By second vertices: directions to the light and onwards, f cos for them and the path's own wo */
     vector_array to_light, onward, near_f, far_f, near_ratio;
     /* Towards the second vertex of the pixel a step before */
