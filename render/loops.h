@@ -43,8 +43,8 @@ typedef struct render_loops {
      * distance, or anywhere. */
     void (*view)(const camera *camera, float extent, float width, float height, size_t n, const float *x,
                  const float *y, uint32_t *const u[3], struct ray_array *r);
-    /* Copies those of no more than PATHS elements for which keeps is 1, not 0, one after the other: their number.  Those
-     * behind them, up to a vector's, are overwritten. */
+    /* Copies those of n elements, no more than PATHS, for which keeps is 1, not 0, one after the other: their number.
+     * What follows them, up to a vector's, is overwritten. */
     uint32_t (*pack)(uint32_t n, const uint32_t *keeps, size_t n_arrays, const packed_array *arrays);
     /* sky_place of n directions. */
     void (*find_sky)(size_t n, vectors direction, float *u, float *v);
