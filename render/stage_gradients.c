@@ -32,12 +32,12 @@
 #include <math.h>
 #include <string.h>
 
-static real3 take3(const framed_array *a, uint32_t slot)
+static real3 get_framed(const framed_array *a, uint32_t slot)
 {
     return make3(a->x[MARGIN + slot], a->y[MARGIN + slot], a->z[MARGIN + slot]);
 }
 
-static void put3(framed_array *a, uint32_t slot, real3 v)
+static void set_framed(framed_array *a, uint32_t slot, real3 v)
 {
     a->x[MARGIN + slot] = v.x;
     a->y[MARGIN + slot] = v.y;
@@ -125,13 +125,14 @@ void gradient_of_first_lights(path_batch *batch, const path_context *c)
         if (!(max_of3(light) > 0 && is_held(light))) continue;
         g->has_lamps = true;
         g->lamp_probability[MARGIN + k] = v->light.probability[k];
-        put3(&g->brought, k, light);
+        set_framed(&g->brought, k, light);
     }
     if (c->settings->strategy != STRATEGY_MIS || light_set_rates_exactly(c->lights)) return;
     light_set_rate(c->lights, v->n, receivers_of(&v->position, &v->receiver), choices_of(&v->light));
     for (uint32_t k = 0; k < v->n; k++) {
         const float probability = g->lamp_probability[MARGIN + k];
-        if (probability > 0) put3(&g->brought, k, scale3(weight_by_rate(v, k, probability), take3(&g->brought, k)));
+        if (probability > 0)
+            set_framed(&g->brought, k, scale3(weight_by_rate(v, k, probability), get_framed(&g->brought, k)));
     }
 }
 
@@ -149,10 +150,10 @@ void gradient_of_second_vertices(path_batch *batch)
         const real3 wo = scale3(1/sqrtf(d2), d), up = get3(&v->up, k);
         const float cos = dot3(normal, wo);
         if (!(mirror_cosine(up, normal, wo) >= least_mirror_cosine(cos))) continue; /* bent for this wo alone */
-        put3(&g->position, slot, position);
-        put3(&g->normal, slot, normal);
-        put3(&g->shading, slot, up);
-        put3(&g->target, slot, madd3(position, v->offset[k], normal));
+        set_framed(&g->position, slot, position);
+        set_framed(&g->normal, slot, normal);
+        set_framed(&g->shading, slot, up);
+        set_framed(&g->target, slot, madd3(position, v->offset[k], normal));
         g->density[MARGIN + slot] = g->pdf[slot]*cos/d2;
     }
 }
@@ -229,11 +230,11 @@ static void look_back(path_batch *batch, int step)
         const uint32_t slot = v->slot[k];
         const real3 near = get3(&g->near, slot), far = get3(&batch->radiance, slot);
         const real3 near_ratio = get3(&g->near_ratio, k), far_ratio = get3(&v->f, k);
-        put3(&g->seen, slot, add3(mul3(near_ratio, near), mul3(far_ratio, far)));
-        put3(&g->own, slot,
-             make3(keep_if(near_ratio.x > 0, near.x) + keep_if(far_ratio.x > 0, far.x),
-                   keep_if(near_ratio.y > 0, near.y) + keep_if(far_ratio.y > 0, far.y),
-                   keep_if(near_ratio.z > 0, near.z) + keep_if(far_ratio.z > 0, far.z)));
+        set_framed(&g->seen, slot, add3(mul3(near_ratio, near), mul3(far_ratio, far)));
+        set_framed(&g->own, slot,
+                   make3(keep_if(near_ratio.x > 0, near.x) + keep_if(far_ratio.x > 0, far.x),
+                         keep_if(near_ratio.y > 0, near.y) + keep_if(far_ratio.y > 0, far.y),
+                         keep_if(near_ratio.z > 0, near.z) + keep_if(far_ratio.z > 0, far.z)));
     }
 }
 
