@@ -1,23 +1,30 @@
 /* gradient_loops_text.h: the loops over neighbouring pixels (stage_gradients.c), a part of loops_text.h.
  * SPDX-License-Identifier: MIT */
 
+typedef struct read_vectors {
+    const float *x, *y, *z;
+} read_vectors;
+
 /* Those of the pixels a step before. */
-static inline vectors before(framed_array *a, ptrdiff_t step)
+static inline read_vectors before(const framed_array *a, ptrdiff_t step)
 {
-    const vectors v = {a->x + MARGIN - step, a->y + MARGIN - step, a->z + MARGIN - step};
+    const read_vectors v = {a->x + MARGIN - step, a->y + MARGIN - step, a->z + MARGIN - step};
     return v;
 }
 
-static inline real3 at3(vectors v, size_t k)
+static inline real3 at3(read_vectors v, size_t k)
 {
     return make3(v.x[k], v.y[k], v.z[k]);
 }
 
 /* The second vertices as lights of radiance 1: no more than aim and connect ask of one. */
-static void reach(vertex_list *v, gradient_list *g, ptrdiff_t step)
+static void reach(vertex_list *v, gradient_list *g, const sight_list *to)
 {
-    const vectors position = before(&g->position, step), target = before(&g->target, step),
-                  normals = before(&g->normal, step), shading = before(&g->shading, step), own = before(&g->own, step);
+    const ptrdiff_t step = to->step;
+    const uint32_t *is_beside = to->is_beside;
+    const read_vectors position = before(&g->position, step), target = before(&g->target, step),
+                       normals = before(&g->normal, step), shading = before(&g->shading, step),
+                       own = before(&g->own, step);
     const float *density = g->density + MARGIN - step;
     for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
         {
@@ -28,7 +35,7 @@ static void reach(vertex_list *v, gradient_list *g, ptrdiff_t step)
             const real3 normal = at3(normals, k);
             const float cos = dot3(normal, wo);
             const float lack = least_mirror_cosine(cos) - mirror_cosine(at3(shading, k), normal, wo);
-            const int is_shared = (g->is_beside[k] != 0) & (density[k] > 0) & (max_of3(at3(own, k)) > 0);
+            const int is_shared = (is_beside[k] != 0) & (density[k] > 0) & (max_of3(at3(own, k)) > 0);
             v->light.pdf[k] = keep_if(is_shared & (cos > 0) & (lack <= 0), 1);
             put_lane3(&v->light.direction, k, direction);
             put_lane3(&v->light.target, k, at3(target, k));
@@ -46,32 +53,36 @@ static inline float passed_on(float own, float seen, float throughput, float f, 
     return keep_if((f > 0) & (throughput > 0) & (m < MOST_PASSED), m); /* nor what is not a number */
 }
 
-static void pass_on(const vertex_list *v, gradient_list *g, ptrdiff_t step)
+static void rate_seconds(const vertex_list *v, const gradient_list *g, sight_list *to)
 {
-    const vectors own = before(&g->own, step), seen = before(&g->seen, step), weight = before(&g->throughput, step);
+    const ptrdiff_t step = to->step;
+    const read_vectors own = before(&g->own, step), seen = before(&g->seen, step),
+                       weight = before(&g->throughput, step);
+    const vectors worth = frame_of(&to->worth);
     const float *densities = g->density + MARGIN - step;
-    float *red = g->passed[0] + MARGIN, *green = g->passed[1] + MARGIN, *blue = g->passed[2] + MARGIN;
+    const uint32_t *is_open = to->is_open + MARGIN;
     for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
         {
             const size_t k = first + i;
-            const float cos = keep_if(v->keeps[k] != 0, g->cosine[k]), other = v->pdf[k]*cos;
+            const float cos = keep_if(is_open[k] != 0, g->cosine[k]), other = v->pdf[k]*cos;
             const float density = densities[k]*g->distance2[k];
             const real3 f = scale3(cos, lane3(&v->f, k));
-            red[k] = passed_on(own.x[k], seen.x[k], weight.x[k], f.x, density, other);
-            green[k] = passed_on(own.y[k], seen.y[k], weight.y[k], f.y, density, other);
-            blue[k] = passed_on(own.z[k], seen.z[k], weight.z[k], f.z, density, other);
+            worth.x[k] = passed_on(own.x[k], seen.x[k], weight.x[k], f.x, density, other);
+            worth.y[k] = passed_on(own.y[k], seen.y[k], weight.y[k], f.y, density, other);
+            worth.z[k] = passed_on(own.z[k], seen.z[k], weight.z[k], f.z, density, other);
         }
 }
 
-/* One channel: (V_p + V_q) C C'/(C + C'), lit being the former. */
-static inline float lamp_passed_on(float own, float seen, float lit)
+/* One channel: C C'/(C + C'). */
+static inline float lamp_passed_on(float own, float seen)
 {
-    return keep_if((own > 0) & (seen > 0) & (seen < MOST_PASSED), lit*own*(seen/(own + seen)));
+    return keep_if((own > 0) & (seen > 0) & (seen < MOST_PASSED), own*(seen/(own + seen)));
 }
 
-static void take_lamps(vertex_list *v, const gradient_list *g, ptrdiff_t step)
+static void take_lamps(vertex_list *v, const gradient_list *g, const sight_list *to)
 {
-    const uint32_t *lamp = g->lamp + MARGIN - step, *x = g->lamp_u[0] + MARGIN - step,
+    const ptrdiff_t step = to->step;
+    const uint32_t *is_beside = to->is_beside, *lamp = g->lamp + MARGIN - step, *x = g->lamp_u[0] + MARGIN - step,
                    *y = g->lamp_u[1] + MARGIN - step;
     const float *probability = g->lamp_probability + MARGIN - step;
     const double *rest = g->lamp_rest + MARGIN - step;
@@ -79,8 +90,8 @@ static void take_lamps(vertex_list *v, const gradient_list *g, ptrdiff_t step)
         EACH_LANE(i)
         {
             const size_t k = first + i;
-            v->light.which[k] = g->is_beside[k] ? lamp[k] : 0;
-            v->light.probability[k] = keep_if(g->is_beside[k] != 0, probability[k]);
+            v->light.which[k] = is_beside[k] ? lamp[k] : 0;
+            v->light.probability[k] = keep_if(is_beside[k] != 0, probability[k]);
             v->u[1][k] = x[k];
             v->u[2][k] = y[k];
         }
@@ -88,21 +99,51 @@ static void take_lamps(vertex_list *v, const gradient_list *g, ptrdiff_t step)
     }
 }
 
-static void pass_lamps(const vertex_list *v, gradient_list *g, ptrdiff_t step)
+static void rate_lamps(const vertex_list *v, const gradient_list *g, sight_list *to)
 {
-    const vectors own = before(&g->brought, step);
+    const ptrdiff_t step = to->step;
+    const read_vectors own = before(&g->brought, step);
+    const vectors worth = frame_of(&to->worth);
     const float *probabilities = g->lamp_probability + MARGIN - step;
-    const uint32_t *is_lit = g->is_lit + MARGIN - step;
-    float *red = g->passed[0] + MARGIN, *green = g->passed[1] + MARGIN, *blue = g->passed[2] + MARGIN;
+    const uint32_t *is_beside = to->is_beside;
     for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
         {
             const size_t k = first + i;
-            const float lit = keep_if(v->keeps[k] != 0, 1) + keep_if(is_lit[k] != 0, 1);
-            const float probability = keep_if(g->is_beside[k] != 0, probabilities[k]);
+            const float probability = keep_if(is_beside[k] != 0, probabilities[k]);
             const float ratio = keep_if(probability > 0, v->light.probability[k]/probability);
-            red[k] += lamp_passed_on(own.x[k], ratio*v->f.x[k], lit);
-            green[k] += lamp_passed_on(own.y[k], ratio*v->f.y[k], lit);
-            blue[k] += lamp_passed_on(own.z[k], ratio*v->f.z[k], lit);
+            worth.x[k] = lamp_passed_on(own.x[k], ratio*v->f.x[k]);
+            worth.y[k] = lamp_passed_on(own.y[k], ratio*v->f.y[k]);
+            worth.z[k] = lamp_passed_on(own.z[k], ratio*v->f.z[k]);
+        }
+}
+
+static bool drop_dark(gradient_list *g, vector_array *far)
+{
+    uint32_t is_any[BLOCK] = {0}, is_left = 0;
+    float *density = g->density + MARGIN;
+    for (size_t first = 0; first < PATHS; first += BLOCK) EACH_LANE(i)
+        {
+            const size_t k = first + i;
+            const real3 a = lane3(&g->near, k), b = lane3(far, k), light = add3(a, b), apart = lane3(&g->apart, k);
+            const int holds = is_held(light), is_shared = holds & (max_of3(light) > 0) & (density[k] > 0);
+            put_lane3(&g->apart, k,
+                      make3(apart.x + keep_if(!holds, light.x), apart.y + keep_if(!holds, light.y),
+                            apart.z + keep_if(!holds, light.z)));
+            put_lane3(&g->near, k, make3(keep_if(holds, a.x), keep_if(holds, a.y), keep_if(holds, a.z)));
+            put_lane3(far, k, make3(keep_if(holds, b.x), keep_if(holds, b.y), keep_if(holds, b.z)));
+            density[k] = keep_if(is_shared, density[k]);
+            is_any[i] |= (uint32_t)is_shared;
+        }
+    for (int i = 0; i < BLOCK; i++) is_left |= is_any[i];
+    return is_left;
+}
+
+static void gather(const gradient_list *g, vector_array *light)
+{
+    for (size_t first = 0; first < PATHS; first += BLOCK) EACH_LANE(i)
+        {
+            const size_t k = first + i;
+            put_lane3(light, k, add3(lane3(light, k), add3(lane3(&g->near, k), lane3(&g->apart, k))));
         }
 }
 
@@ -124,20 +165,36 @@ static inline float contrast_of(float f, float own)
     return keep_if((ratio <= MOST_CONTRAST) & (ratio >= 1/MOST_CONTRAST), ratio);
 }
 
-static void contrast(vertex_list *v, const vector_array *own_f, vector_array *ratio)
+static void contrast(const vertex_list *v, const vector_array *own_f, const vector_array *light, gradient_list *g)
 {
     for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
         {
             const size_t k = first + i;
-            ratio->x[k] = contrast_of(v->f.x[k], own_f->x[k]);
-            ratio->y[k] = contrast_of(v->f.y[k], own_f->y[k]);
-            ratio->z[k] = contrast_of(v->f.z[k], own_f->z[k]);
+            const float red = contrast_of(v->f.x[k], own_f->x[k]), green = contrast_of(v->f.y[k], own_f->y[k]),
+                        blue = contrast_of(v->f.z[k], own_f->z[k]);
+            const real3 part = lane3(light, k);
+            const real3 shared = make3(keep_if(red > 0, part.x), keep_if(green > 0, part.y), keep_if(blue > 0, part.z));
+            put_lane3(&g->own_light, k, add3(lane3(&g->own_light, k), shared));
+            put_lane3(&g->seen_light, k, add3(lane3(&g->seen_light, k), mul3(make3(red, green, blue), part)));
         }
 }
 
 /* Of n pixels: what each is passed by the one a step before, less what it passes on to the next, both weighted. */
-static void give(gradient_list *g, size_t n, ptrdiff_t step)
+static void give(gradient_list *g, size_t n, const sight_list *from, bool is_of_lamps)
 {
+    const ptrdiff_t step = from->step;
+    const uint32_t asks = is_of_lamps ? ~0u : 0;
+    const uint32_t *is_open = from->is_open + MARGIN, *is_lit = g->is_lit + MARGIN - step;
+    const read_vectors worth = before(&from->worth, 0);
+    float *const passed_on[3] = {g->passed[0] + MARGIN, g->passed[1] + MARGIN, g->passed[2] + MARGIN};
+    for (size_t first = 0; first < n; first += BLOCK) EACH_LANE(i)
+        {
+            const size_t k = first + i;
+            const float lit = (float)(int32_t)(is_open[k] + (is_lit[k] & asks)); /* V_q, or V_p + V_q */
+            passed_on[0][k] = lit*worth.x[k];
+            passed_on[1][k] = lit*worth.y[k];
+            passed_on[2][k] = lit*worth.z[k];
+        }
     const float *weights = MARGIN + (step == 1 || step == -1 ? g->right : g->below);
     const float *before = weights + (step > 0 ? -step : 0), *after = weights + (step > 0 ? 0 : step);
     for (int c = 0; c < 3; c++) {

@@ -22,10 +22,12 @@ extern "C" {
 /* stages.h */
 struct vertex_list;
 struct gradient_list;
+struct sight_list;
 struct vector_array;
 struct ray_array;
 
-/* Of elements of 32 bits. */
+/* Of elements of 32 bits, so many of which are moved together. */
+enum { PACKED = 8 };
 typedef struct packed_array {
     const void *from;
     void *to;
@@ -44,8 +46,12 @@ typedef struct render_loops {
     void (*view)(const camera *camera, float extent, float width, float height, size_t n, const float *x,
                  const float *y, uint32_t *const u[3], struct ray_array *r);
     /* Copies those of n elements, no more than PATHS, for which keeps is 1, not 0, one after the other: their number.
-     * What follows them, up to a vector's, is overwritten. */
-    uint32_t (*pack)(uint32_t n, const uint32_t *keeps, size_t n_arrays, const packed_array *arrays);
+     * What follows them, up to a vector's, is overwritten.  starts: where each PACKED of them are; NULL: one after the
+     * other. */
+    uint32_t (*pack)(uint32_t n, const uint32_t *starts, const uint32_t *keeps, size_t n_arrays,
+                     const packed_array *arrays);
+    /* keeps of those for which it is 1 is changed by that which was packed for them, of n in whole vectors. */
+    void (*unpack)(uint32_t n, const uint32_t *starts, const uint32_t *packed, uint32_t *keeps);
     /* sky_place of n directions. */
     void (*find_sky)(size_t n, vectors direction, float *u, float *v);
     /* Vertices from `first`, the first of a block, on: those in the block's hits; wi: wo in world space. */
@@ -78,27 +84,34 @@ typedef struct render_loops {
      * is_implicit: none but delta lights. */
     void (*aim)(struct vertex_list *v, bool is_implicit);
     /* Rays to the lights, and in f what they bring; is_mis: by the power heuristic. */
-    void (*connect)(struct vertex_list *v, bool is_mis);
+    void (*connect)(struct vertex_list *v, bool is_mis, struct sight_list *to);
     /* Rays along the sampled directions wi, and in f what the paths carry then. */
     void (*scatter)(struct vertex_list *v, bool has_roulette);
+    /* No density where there is nothing to share, and apart what the film cannot hold, which counts it.  Whether any
+     * density is left. */
+    bool (*drop_dark)(struct gradient_list *g, struct vector_array *far);
     /* wo of second vertices to the first ones of the pixels a step on. */
     void (*look_back)(struct vertex_list *second, const struct vertex_list *first, ptrdiff_t step);
-    /* How much brighter the light's part looks from there, from f for that wo, as a share of the path's own. */
-    void (*contrast)(struct vertex_list *second, const struct vector_array *own_f, struct vector_array *ratio);
+    /* Adds a part of the paths' light to that which is shared and, by f for that wo over the path's own, to what is
+     * seen of it from there. */
+    void (*contrast)(const struct vertex_list *second, const struct vector_array *own_f,
+                     const struct vector_array *light, struct gradient_list *g);
     /* From first vertices to the second ones of the pixels a step before, as to lights. */
-    void (*reach)(struct vertex_list *first, struct gradient_list *g, ptrdiff_t step);
-    /* What the light of those is worth there, which they pass on, by f and pdf towards the vertices that are kept. */
-    void (*pass_on)(const struct vertex_list *first, struct gradient_list *g, ptrdiff_t step);
+    void (*reach)(struct vertex_list *first, struct gradient_list *g, const struct sight_list *to);
+    /* What the light of those is worth there, by f and pdf towards the vertices that are to be looked at. */
+    void (*rate_seconds)(const struct vertex_list *first, const struct gradient_list *g, struct sight_list *to);
     /* The lamps of the pixels a step before, and the numbers that chose them. */
-    void (*take_lamps)(struct vertex_list *first, const struct gradient_list *g, ptrdiff_t step);
-    /* What those are worth there, too, by what they bring. */
-    void (*pass_lamps)(const struct vertex_list *first, struct gradient_list *g, ptrdiff_t step);
-    /* What is passed on is given to pixels and taken from those a step before. */
-    void (*give)(struct gradient_list *g, size_t n, ptrdiff_t step);
+    void (*take_lamps)(struct vertex_list *first, const struct gradient_list *g, const struct sight_list *to);
+    /* What those are worth there, by what they bring. */
+    void (*rate_lamps)(const struct vertex_list *first, const struct gradient_list *g, struct sight_list *to);
+    /* What is passed on, of lamps by both pixels' sight, is given to pixels and taken from those a step before. */
+    void (*give)(struct gradient_list *g, size_t n, const struct sight_list *from, bool is_of_lamps);
     /* Weights of neighbours. */
     void (*liken)(struct gradient_list *g, size_t width, size_t height);
     /* The light that fits best. */
     void (*fit)(struct gradient_list *g, size_t width, size_t height, struct vector_array *light);
+    /* All that pixels have gathered. */
+    void (*gather)(const struct gradient_list *g, struct vector_array *light);
 } render_loops;
 
 /* Those of the instruction set that libfacet's batches use. */

@@ -17,8 +17,45 @@ enum { BLOCK = LOOP_LANES };
 
 /* ---- Moving elements ----------------------------------------------------------------------------------------- */
 
-/* Elements of 32 bits that are moved together. */
-enum { PACKED = 8 };
+/* For every set m of the numbers below 8: ranks[m], whose byte i tells how many of the set are below i, and members[m],
+ * whose bytes are those of the set in order. */
+#define HAS(m, i) ((uint64_t)(m) >> (i)&1)
+#define RANK(m, i)                                                                                                     \
+    (HAS(m, 0)*((i) > 0) + HAS(m, 1)*((i) > 1) + HAS(m, 2)*((i) > 2) + HAS(m, 3)*((i) > 3) +                           \
+     HAS(m, 4)*((i) > 4) + HAS(m, 5)*((i) > 5) + HAS(m, 6)*((i) > 6))
+#define RANKS(m)                                                                                                       \
+    (RANK(m, 1) << 8 | RANK(m, 2) << 16 | RANK(m, 3) << 24 | RANK(m, 4) << 32 | RANK(m, 5) << 40 | RANK(m, 6) << 48 |  \
+     RANK(m, 7) << 56)
+#define MEMBER(m, i) (HAS(m, i)*(i) << 8*RANK(m, i))
+#define MEMBERS(m)                                                                                                     \
+    (MEMBER(m, 1) | MEMBER(m, 2) | MEMBER(m, 3) | MEMBER(m, 4) | MEMBER(m, 5) | MEMBER(m, 6) | MEMBER(m, 7))
+#define FOUR_OF(f, m) f(m), f((m) + 1), f((m) + 2), f((m) + 3)
+#define SIXTEEN_OF(f, m) FOUR_OF(f, m), FOUR_OF(f, (m) + 4), FOUR_OF(f, (m) + 8), FOUR_OF(f, (m) + 12)
+#define ROWS_OF(f, m) SIXTEEN_OF(f, m), SIXTEEN_OF(f, (m) + 16), SIXTEEN_OF(f, (m) + 32), SIXTEEN_OF(f, (m) + 48)
+#define ALL_OF(f) ROWS_OF(f, 0), ROWS_OF(f, 64), ROWS_OF(f, 128), ROWS_OF(f, 192)
+static const uint64_t ranks[256] = {ALL_OF(RANKS)}, members[256] = {ALL_OF(MEMBERS)};
+
+/* The set of those for which keeps is 1, not 0. */
+static inline uint32_t set_of(const uint32_t *keeps)
+{
+#if defined(__AVX2__)
+    const __m256i all = _mm256_loadu_si256((const __m256i *)(const void *)keeps);
+    return (uint32_t)_mm256_movemask_ps(_mm256_castsi256_ps(_mm256_slli_epi32(all, 31)));
+#else
+    uint32_t set = 0;
+    for (uint32_t i = 0; i < PACKED; i++) set |= keeps[i] << i;
+    return set;
+#endif
+}
+
+static inline void write_places(uint64_t bytes, uint32_t *places)
+{
+#if defined(__AVX2__)
+    _mm256_storeu_si256((__m256i *)(void *)places, _mm256_cvtepu8_epi32(_mm_cvtsi64_si128((long long)bytes)));
+#else
+    for (int i = 0; i < PACKED; i++) places[i] = bytes >> 8*i & 0xff;
+#endif
+}
 
 /* to[i] = from[places[i]] for all of them. */
 static inline void pick(const void *from, const uint32_t *places, void *to)
@@ -32,26 +69,41 @@ static inline void pick(const void *from, const uint32_t *places, void *to)
 #endif
 }
 
-static uint32_t pack(uint32_t n, const uint32_t *keeps, size_t n_arrays, const packed_array *arrays)
+static uint32_t pack(uint32_t n, const uint32_t *starts, const uint32_t *keeps, size_t n_arrays,
+                     const packed_array *arrays)
 {
-    uint32_t places[PATHS] = {0}, begin[PATHS/PACKED], n_kept = 0;
+    uint32_t places[PATHS], start[PATHS/PACKED], begin[PATHS/PACKED], n_kept = 0;
     for (uint32_t first = 0; first < n; first += PACKED) {
-        const uint32_t end = n - first < PACKED ? n - first : PACKED;
-        uint32_t some = 0;
-        for (uint32_t i = 0; i < end; i++) { /* no branch: no processor foresees what is kept */
-            places[first + some] = i;
-            some += keeps[first + i];
-        }
+        const uint32_t from = starts ? starts[first/PACKED] : first;
+        const uint32_t set = set_of(keeps + from) & (n - first < PACKED ? (1u << (n - first)) - 1 : 255);
+        write_places(members[set], places + first);
+        start[first/PACKED] = from;
         begin[first/PACKED] = n_kept;
-        n_kept += some;
+        n_kept += (uint32_t)__builtin_popcount(set);
     }
-    for (size_t k = 0; k < n_arrays; k++) {
-        const char *from = arrays[k].from;
-        char *to = arrays[k].to;
-        for (uint32_t first = 0; first < n; first += PACKED)
-            pick(from + 4*(size_t)first, places + first, to + 4*(size_t)begin[first/PACKED]);
+    for (size_t k = 0; k < n_arrays; k += 4) { /* four at once, of which the last may be one array more than once */
+        const packed_array *a = &arrays[k], *b = a + (k + 1 < n_arrays), *c = b + (k + 2 < n_arrays),
+                           *d = c + (k + 3 < n_arrays);
+        const char *const from[4] = {a->from, b->from, c->from, d->from};
+        char *const to[4] = {a->to, b->to, c->to, d->to};
+        for (uint32_t first = 0; first < n; first += PACKED) {
+            const size_t source = 4*(size_t)start[first/PACKED], target = 4*(size_t)begin[first/PACKED];
+            for (int i = 0; i < 4; i++) pick(from[i] + source, places + first, to[i] + target);
+        }
     }
     return n_kept;
+}
+
+static void unpack(uint32_t n, const uint32_t *starts, const uint32_t *packed, uint32_t *keeps)
+{
+    for (uint32_t first = 0, n_before = 0; first < n; first += PACKED) {
+        uint32_t places[PACKED], values[PACKED], *to = keeps + starts[first/PACKED];
+        const uint32_t set = set_of(to);
+        write_places(ranks[set], places);
+        pick(packed + n_before, places, values);
+        for (int i = 0; i < PACKED; i++) to[i] &= values[i];
+        n_before += (uint32_t)__builtin_popcount(set);
+    }
 }
 
 /* ---- Rays against a list ------------------------------------------------------------------------------------- */
@@ -212,6 +264,7 @@ const render_loops RENDER_LOOPS = {.name = RENDER_LOOPS_NAME,
                                    .points = points,
                                    .view = view,
                                    .pack = pack,
+                                   .unpack = unpack,
                                    .find_sky = find_sky,
                                    .meet = meet,
                                    .choose_light = choose_light,
@@ -226,12 +279,14 @@ const render_loops RENDER_LOOPS = {.name = RENDER_LOOPS_NAME,
                                    .aim = aim,
                                    .connect = connect,
                                    .scatter = scatter,
+                                   .drop_dark = drop_dark,
                                    .look_back = look_back,
                                    .contrast = contrast,
                                    .reach = reach,
-                                   .pass_on = pass_on,
+                                   .rate_seconds = rate_seconds,
                                    .take_lamps = take_lamps,
-                                   .pass_lamps = pass_lamps,
+                                   .rate_lamps = rate_lamps,
                                    .give = give,
                                    .liken = liken,
-                                   .fit = fit};
+                                   .fit = fit,
+                                   .gather = gather};

@@ -2,6 +2,8 @@
  * SPDX-License-Identifier: MIT */
 #include "render/stages.h"
 
+#include <string.h>
+
 /* The density of scattering at the directions wi. */
 static void find_pdf(vertex_list *v)
 {
@@ -62,31 +64,48 @@ void vertices_evaluate(vertex_list *v)
     }
 }
 
-/* Those that are to be traced; their rays start at 0. */
-static void collect(shadow_list *s, const vertex_list *v)
+void vertices_connect(vertex_list *v, bool is_mis, sight_list *to)
 {
-    const ray_array *from = &v->ray;
-    ray_array *to = &s->ray;
-    packed_array arrays[MOST_PACKED], *end = arrays;
-    pack_vectors(&end, &from->origin, &to->origin);
-    pack_vectors(&end, &from->direction, &to->direction);
-    pack_array(&end, from->t_max, to->t_max);
-    pack_array(&end, from->seed, to->seed);
-    s->n = render_loops_chosen()->pack(v->n, v->keeps, (size_t)(end - arrays), arrays);
+    vertices_evaluate(v);
+    render_loops_chosen()->connect(v, is_mis, to);
+    memset(to->is_open + MARGIN + v->n, 0, (FRAMED - MARGIN - v->n)*sizeof *to->is_open);
 }
 
-void vertices_connect(path_batch *batch, vertex_list *v, const path_context *c, bool is_mis, path_counts *counts)
+/* Where the rays from vertex p on stand, PACKED of each list in turn: their number. */
+static uint32_t find_starts(const sight_list *sights, uint32_t n_lists, uint32_t first, uint32_t end, uint32_t *starts)
+{
+    uint32_t n = 0;
+    for (uint32_t p = first; p < end; p += PACKED)
+        for (uint32_t i = 0; i < n_lists; i++)
+            starts[n++] = (uint32_t)(i*sizeof *sights/sizeof(uint32_t)) + MARGIN + p + (uint32_t)sights[i].step;
+    return PACKED*n;
+}
+
+/* Those of n that are to be traced. */
+static void collect(shadow_list *s, const sight_list *sights, uint32_t n, const uint32_t *starts)
+{
+    packed_array arrays[MOST_PACKED], *end = arrays;
+    ray_array *to = &s->ray;
+    pack_framed(&end, &sights->origin, &to->origin);
+    pack_framed(&end, &sights->direction, &to->direction);
+    pack_array(&end, sights->t_max, to->t_max);
+    pack_array(&end, sights->seed, to->seed);
+    s->n = render_loops_chosen()->pack(n, starts, sights->is_open, (size_t)(end - arrays), arrays);
+}
+
+void sights_trace(path_batch *batch, const path_context *c, uint32_t n_lists, uint32_t n, path_counts *counts)
 {
     shadow_list *s = &batch->shadows;
-    vertices_evaluate(v);
-    render_loops_chosen()->connect(v, is_mis);
-    collect(s, v);
-    counts->n_shadow_rays += s->n;
-    tracer_blocked(c->tracer, s->n, rays_of(&s->ray), s->is_blocked);
-    for (uint32_t k = 0, j = 0; k < v->n; k++) {
-        const uint32_t is_traced = v->keeps[k]; /* no branch: no processor foresees what is in the way */
-        v->keeps[k] = is_traced & !s->is_blocked[j];
-        j += is_traced;
+    const uint32_t at_once = PATHS/n_lists;
+    for (uint32_t first = 0; first < n; first += at_once) {
+        uint32_t starts[PATHS/PACKED];
+        const uint32_t end = n - first < at_once ? n : first + at_once;
+        const uint32_t n_rays = find_starts(batch->sights, n_lists, first, end, starts);
+        collect(s, batch->sights, n_rays, starts);
+        counts->n_shadow_rays += s->n;
+        tracer_blocked(c->tracer, s->n, rays_of(&s->ray), s->is_blocked);
+        for (uint32_t k = 0; k < s->n; k++) s->is_blocked[k] ^= 1; /* keeps what is open */
+        render_loops_chosen()->unpack(n_rays, starts, s->is_blocked, batch->sights[0].is_open);
     }
 }
 
@@ -101,7 +120,10 @@ void stage_connect(path_batch *batch, const path_context *c, uint32_t group, pat
     if (light_set_needs_receivers(c->lights)) describe_receivers(v);
     light_set_choose(c->lights, v->n, receivers_of(&v->position, &v->receiver), u, choices_of(&v->light));
     vertices_aim(v, c);
-    vertices_connect(batch, v, c, c->settings->strategy == STRATEGY_MIS, counts);
+    sight_list *lights = &batch->sights[0];
+    lights->step = 0;
+    vertices_connect(v, c->settings->strategy == STRATEGY_MIS, lights);
+    sights_trace(batch, c, 1, v->n, counts);
     for (uint32_t k = 0; k < v->n; k++)
-        if (v->keeps[k]) add_radiance(batch, v->slot[k], get3(&v->f, k));
+        if (lights->is_open[MARGIN + k]) add_radiance(batch, v->slot[k], get3(&v->f, k));
 }

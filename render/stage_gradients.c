@@ -54,12 +54,6 @@ static void set_apart(path_batch *batch)
     }
 }
 
-/* Whether the film can hold it. */
-static bool is_held(real3 light)
-{
-    return fabsf(light.x) <= FILM_MOST && fabsf(light.y) <= FILM_MOST && fabsf(light.z) <= FILM_MOST;
-}
-
 void gradient_start(path_batch *batch)
 {
     gradient_list *g = &batch->gradients;
@@ -118,7 +112,7 @@ void gradient_of_first_lights(path_batch *batch, const path_context *c)
     weigh_pixels(g, v);
     memcpy(g->lamp + MARGIN, v->light.which, v->n*sizeof *g->lamp);
     memcpy(g->lamp_rest + MARGIN, v->light.rest, v->n*sizeof *g->lamp_rest);
-    memcpy(g->is_lit + MARGIN, v->keeps, v->n*sizeof *g->is_lit);
+    memcpy(g->is_lit + MARGIN, batch->sights[0].is_open + MARGIN, v->n*sizeof *g->is_lit);
     for (int i = 0; i < 2; i++) memcpy(g->lamp_u[i] + MARGIN, v->u[i + 1], v->n*sizeof *g->lamp_u[i]);
     for (uint32_t k = 0; k < v->n; k++) {
         const real3 light = get3(&v->f, k);
@@ -166,25 +160,6 @@ void gradient_of_lights(path_batch *batch)
     memset(&batch->radiance, 0, sizeof batch->radiance);
 }
 
-/* Where there is nothing to share; what the film cannot hold is left to it to count.  Returns the number of others. */
-static uint32_t drop_dark(path_batch *batch)
-{
-    gradient_list *g = &batch->gradients;
-    uint32_t n = 0;
-    for (uint32_t i = 0; i < PATHS; i++) {
-        const real3 light = add3(get3(&g->near, i), get3(&batch->radiance, i));
-        if (!is_held(light)) {
-            set3(&g->apart, i, add3(get3(&g->apart, i), light));
-            set3(&g->near, i, splat3(0));
-            set3(&batch->radiance, i, splat3(0));
-        }
-        float *density = &g->density[MARGIN + i];
-        if (!is_held(light) || !(max_of3(light) > 0)) *density = 0;
-        n += *density > 0;
-    }
-    return n;
-}
-
 /* f cos of the second vertices for a direction of each. */
 static void evaluate_seconds(vertex_list *v, const vector_array *wi)
 {
@@ -192,27 +167,32 @@ static void evaluate_seconds(vertex_list *v, const vector_array *wi)
     vertices_evaluate(v);
 }
 
-/* f cos of what the paths have done at their second vertices. */
+/* f cos of what the paths have done at their second vertices, and the light that it brought. */
 static void evaluate_paths(path_batch *batch)
 {
     gradient_list *g = &batch->gradients;
     vertex_list *v = &batch->vertex_lists[1];
     g->onward = v->wi;
-    for (uint32_t k = 0; k < v->n; k++)
-        v->light.pdf[k] = g->density[MARGIN + v->slot[k]] > 0; /* else f is not asked for */
+    for (uint32_t k = 0; k < v->n; k++) {
+        const uint32_t slot = v->slot[k];
+        v->light.pdf[k] = g->density[MARGIN + slot] > 0; /* else f is not asked for */
+        copy3(&g->near_light, k, &g->near, slot);
+        copy3(&g->far_light, k, &batch->radiance, slot);
+    }
     evaluate_seconds(v, &g->to_light);
     g->near_f = v->f;
     evaluate_seconds(v, &g->onward);
     g->far_f = v->f;
 }
 
-/* Which pixels have one a step before.  step: 1, -1, width or -width, in slots; a single column has none. */
-static void find_neighbours(gradient_list *g, uint32_t width, uint32_t height, int step)
+/* Which pixels have one a step before: 1, -1, width or -width, in slots; a single column has none. */
+static void find_neighbours(sight_list *to, uint32_t width, uint32_t height, int step)
 {
     const int n = (int)(width*height), rows = step == 1 || step == -1 ? 0 : step;
-    for (int i = 0; i < (int)ROOM; i++) g->is_beside[i] = i >= rows && i < n + rows && i < n;
+    to->step = step;
+    for (int i = 0; i < (int)ROOM; i++) to->is_beside[i] = i >= rows && i < n + rows && i < n;
     if (rows) return;
-    for (int i = step > 0 ? 0 : (int)width - 1; i < n; i += (int)width) g->is_beside[i] = 0;
+    for (int i = step > 0 ? 0 : (int)width - 1; i < n; i += (int)width) to->is_beside[i] = 0;
 }
 
 /* What the pixels a step on see of the paths' light. */
@@ -222,76 +202,73 @@ static void look_back(path_batch *batch, int step)
     gradient_list *g = &batch->gradients;
     vertex_list *v = &batch->vertex_lists[1];
     loops->look_back(v, &batch->vertex_lists[0], step);
+    memset(&g->own_light, 0, sizeof g->own_light);
+    memset(&g->seen_light, 0, sizeof g->seen_light);
     evaluate_seconds(v, &g->to_light);
-    loops->contrast(v, &g->near_f, &g->near_ratio);
+    loops->contrast(v, &g->near_f, &g->near_light, g);
     evaluate_seconds(v, &g->onward);
-    loops->contrast(v, &g->far_f, &v->f);
+    loops->contrast(v, &g->far_f, &g->far_light, g);
     for (uint32_t k = 0; k < v->n; k++) { /* where nothing is shared, nobody asks for it */
         const uint32_t slot = v->slot[k];
-        const real3 near = get3(&g->near, slot), far = get3(&batch->radiance, slot);
-        const real3 near_ratio = get3(&g->near_ratio, k), far_ratio = get3(&v->f, k);
-        set_framed(&g->seen, slot, add3(mul3(near_ratio, near), mul3(far_ratio, far)));
-        set_framed(&g->own, slot,
-                   make3(keep_if(near_ratio.x > 0, near.x) + keep_if(far_ratio.x > 0, far.x),
-                         keep_if(near_ratio.y > 0, near.y) + keep_if(far_ratio.y > 0, far.y),
-                         keep_if(near_ratio.z > 0, near.z) + keep_if(far_ratio.z > 0, far.z)));
+        set_framed(&g->own, slot, get3(&g->own_light, k));
+        set_framed(&g->seen, slot, get3(&g->seen_light, k));
     }
 }
 
-/* f and pdf towards the second vertices of the pixels a step before, as far as these are in sight. */
-static void reach(path_batch *batch, const path_context *c, int step, path_counts *counts)
+/* What the second vertices of the pixels a step before are worth. */
+static void reach_seconds(path_batch *batch, sight_list *to)
 {
     const render_loops *loops = render_loops_chosen();
     vertex_list *v = &batch->vertex_lists[0];
-    loops->reach(v, &batch->gradients, step);
+    look_back(batch, to->step);
+    loops->reach(v, &batch->gradients, to);
     loops->aim(v, false);
-    vertices_connect(batch, v, c, false, counts);
+    vertices_connect(v, false, to);
+    loops->rate_seconds(v, &batch->gradients, to);
 }
 
-/* What the lamps of the pixels a step before bring, by the same numbers. */
-static void reach_lamps(path_batch *batch, const path_context *c, int step, path_counts *counts)
+/* What the lamps of the pixels a step before are worth, by the same numbers. */
+static void reach_lamps(path_batch *batch, const path_context *c, sight_list *to)
 {
+    const render_loops *loops = render_loops_chosen();
     vertex_list *v = &batch->vertex_lists[0];
-    render_loops_chosen()->take_lamps(v, &batch->gradients, step);
+    loops->take_lamps(v, &batch->gradients, to);
     light_set_rate(c->lights, v->n, receivers_of(&v->position, &v->receiver), choices_of(&v->light));
     vertices_aim(v, c);
-    vertices_connect(batch, v, c, c->settings->strategy == STRATEGY_MIS, counts);
+    vertices_connect(v, c->settings->strategy == STRATEGY_MIS, to);
+    loops->rate_lamps(v, &batch->gradients, to);
 }
 
-/* What pixels pass on to those a step along. */
-static void share_light(path_batch *batch, const path_context *c, uint32_t width, uint32_t height, int step,
-                        bool has_seconds, path_counts *counts)
+/* Looks at those, and hands on what they are worth. */
+static void share_light(path_batch *batch, const path_context *c, bool is_of_lamps, path_counts *counts)
 {
-    const render_loops *loops = render_loops_chosen();
-    gradient_list *g = &batch->gradients;
-    vertex_list *v = &batch->vertex_lists[0];
-    find_neighbours(g, width, height, step);
-    if (has_seconds) {
-        look_back(batch, step);
-        reach(batch, c, step, counts);
-        loops->pass_on(v, g, step);
-    } else memset(g->passed, 0, sizeof g->passed);
-    if (g->has_lamps) {
-        reach_lamps(batch, c, step, counts);
-        loops->pass_lamps(v, g, step);
-    }
-    loops->give(g, width*height, step);
+    const uint32_t n = batch->vertex_lists[0].n;
+    sights_trace(batch, c, NEIGHBOURS, n, counts);
+    for (int i = 0; i < NEIGHBOURS; i++)
+        render_loops_chosen()->give(&batch->gradients, n, &batch->sights[i], is_of_lamps);
 }
 
 void gradient_solve(path_batch *batch, const path_context *c, tile where, path_counts *counts)
 {
     gradient_list *g = &batch->gradients;
     const uint32_t width = where.x1 - where.x0, height = where.y1 - where.y0;
-    const bool has_seconds = drop_dark(batch) > 0;
+    const render_loops *loops = render_loops_chosen();
+    const bool has_seconds = loops->drop_dark(g, &batch->radiance);
     if (has_seconds || g->has_lamps) {
-        const render_loops *loops = render_loops_chosen();
         if (has_seconds) evaluate_paths(batch);
         memset(g->given, 0, sizeof g->given);
         loops->liken(g, width, height);
-        const int steps[] = {1, -1, (int)width, -(int)width};
-        for (int i = 0; i < 4; i++) share_light(batch, c, width, height, steps[i], has_seconds, counts);
+        const int steps[NEIGHBOURS] = {1, -1, (int)width, -(int)width};
+        for (int i = 0; i < NEIGHBOURS; i++) find_neighbours(&batch->sights[i], width, height, steps[i]);
+        if (has_seconds) {
+            for (int i = 0; i < NEIGHBOURS; i++) reach_seconds(batch, &batch->sights[i]);
+            share_light(batch, c, false, counts);
+        }
+        if (g->has_lamps) {
+            for (int i = 0; i < NEIGHBOURS; i++) reach_lamps(batch, c, &batch->sights[i]);
+            share_light(batch, c, true, counts);
+        }
         loops->fit(g, width, height, &batch->radiance);
     }
-    for (uint32_t i = 0; i < PATHS; i++)
-        set3(&batch->radiance, i, add3(get3(&batch->radiance, i), add3(get3(&g->near, i), get3(&g->apart, i))));
+    loops->gather(g, &batch->radiance);
 }

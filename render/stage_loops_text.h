@@ -14,6 +14,13 @@ static inline void put_lane3(vector_array *a, size_t k, real3 v)
     a->z[k] = v.z;
 }
 
+/* Those of the pixels themselves. */
+static inline vectors frame_of(framed_array *a)
+{
+    const vectors v = {a->x + MARGIN, a->y + MARGIN, a->z + MARGIN};
+    return v;
+}
+
 static void view(const camera *given, float extent, float width, float height, size_t n, const float *x, const float *y,
                  uint32_t *const u[3], ray_array *r)
 {
@@ -129,15 +136,17 @@ static void find_sky(size_t n, vectors direction, float *u, float *v)
         }
 }
 
-/* The vertex's ray, from just off the surface. */
-static inline void leave(vertex_list *v, size_t k, real3 direction)
+/* Where a ray starts, just off the surface. */
+static inline real3 start_of(const vertex_list *v, size_t k, real3 direction)
 {
-    const real3 origin = leave_surface(lane3(&v->position, k), lane3(&v->normal, k), v->offset[k], direction);
-    put_lane3(&v->ray.origin, k, origin);
+    return leave_surface(lane3(&v->position, k), lane3(&v->normal, k), v->offset[k], direction);
 }
 
-static void connect(vertex_list *v, bool is_mis)
+static void connect(vertex_list *v, bool is_mis, sight_list *to)
 {
+    const vectors origins = frame_of(&to->origin), directions = frame_of(&to->direction);
+    float *t_max = to->t_max + MARGIN;
+    uint32_t *seed = to->seed + MARGIN, *is_open = to->is_open + MARGIN;
     const uint32_t is_alone = !is_mis;
     for (size_t first = 0; first < v->n; first += BLOCK) EACH_LANE(i)
         {
@@ -150,14 +159,17 @@ static void connect(vertex_list *v, bool is_mis)
             const int keeps = (pdf > 0) & (max_of3(f) > 0);
             const real3 light = mul3(f, scale3(weight/pdf, lane3(&v->light.radiance, k)));
             const real3 brings = mul3(lane3(&v->throughput, k), light);
-            v->keeps[k] = keeps;
+            is_open[k] = keeps;
             put_lane3(&v->f, k, make3(keep_if(keeps, brings.x), keep_if(keeps, brings.y), keep_if(keeps, brings.z)));
-            leave(v, k, direction);
-            v->ray.direction.x[k] = is_infinite ? direction.x : v->light.target.x[k] - v->ray.origin.x[k];
-            v->ray.direction.y[k] = is_infinite ? direction.y : v->light.target.y[k] - v->ray.origin.y[k];
-            v->ray.direction.z[k] = is_infinite ? direction.z : v->light.target.z[k] - v->ray.origin.z[k];
-            v->ray.t_max[k] = is_infinite ? INFINITY : 1;
-            v->ray.seed[k] = v->u[0][k] ^ v->u[1][k];
+            const real3 origin = start_of(v, k, direction);
+            origins.x[k] = origin.x;
+            origins.y[k] = origin.y;
+            origins.z[k] = origin.z;
+            directions.x[k] = is_infinite ? direction.x : v->light.target.x[k] - origin.x;
+            directions.y[k] = is_infinite ? direction.y : v->light.target.y[k] - origin.y;
+            directions.z[k] = is_infinite ? direction.z : v->light.target.z[k] - origin.z;
+            t_max[k] = is_infinite ? INFINITY : 1;
+            seed[k] = v->u[0][k] ^ v->u[1][k];
         }
 }
 
@@ -180,7 +192,7 @@ static void scatter(vertex_list *v, bool has_roulette)
             v->keeps[k] = fraction(v->chance[k]) < keep_if(v->pdf[k] > 0, keep_if(side > 0, share));
             put_lane3(&v->f, k, scale3(1/kmin(share, 1), throughput));
             v->eta_scale[k] = eta_scale;
-            leave(v, k, wi);
+            put_lane3(&v->ray.origin, k, start_of(v, k, wi));
             put_lane3(&v->ray.direction, k, wi);
             v->ray.seed[k] = v->u[0][k] ^ v->u[2][k];
         }

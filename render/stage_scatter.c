@@ -68,7 +68,7 @@ void stage_scatter(path_batch *batch, const path_context *c, const path_list *li
     pack_array(&end, v->pdf, next->pdf_scatter);
     pack_array(&end, v->lobe, next->lobe);
     if (light_set_needs_receivers(c->lights)) pack_receivers(&end, &v->receiver, &next->receiver);
-    next->n = render_loops_chosen()->pack(v->n, v->keeps, (size_t)(end - arrays), arrays);
+    next->n = render_loops_chosen()->pack(v->n, NULL, v->keeps, (size_t)(end - arrays), arrays);
     for (uint32_t i = 0; i < next->n; i++) {
         next->ray.t_min[i] = 0;
         next->ray.t_max[i] = INFINITY;

@@ -33,6 +33,12 @@ typedef struct vector_array {
     float x[ROOM], y[ROOM], z[ROOM];
 } vector_array;
 
+/* Numbers of pixels, with so much room before and after them that every pixel has four neighbours. */
+enum { NEIGHBOURS = 4, MARGIN = TILE_SIZE, FRAMED = PATHS + 2*MARGIN };
+typedef struct framed_array {
+    float x[FRAMED], y[FRAMED], z[FRAMED];
+} framed_array;
+
 typedef struct ray_array {
     vector_array origin, direction;
     float t_min[ROOM], t_max[ROOM];
@@ -100,11 +106,22 @@ typedef struct vertex_list {
     uint32_t lobe[ROOM];
     float eta[ROOM];
     light_array light;
-    ray_array ray;        /* towards the light, or scattered; it starts at 0 */
+    ray_array ray;        /* scattered; it starts at 0 */
     uint32_t keeps[ROOM]; /* whether that ray is traced */
 } vertex_list;
 
-/* Rays towards lights. */
+/* What vertices look at: their lights, or what the pixels a step before have found.  Framed arrays begin at MARGIN. */
+typedef struct sight_list {
+    int step;                              /* in slots; 0: none */
+    LINE_ALIGNED uint32_t is_beside[ROOM]; /* whether there is a pixel a step before */
+    framed_array origin, direction;        /* of the ray, which starts at 0 */
+    float t_max[FRAMED];
+    uint32_t seed[FRAMED];
+    uint32_t is_open[FRAMED]; /* whether the ray is to be traced; then, whether nothing is in the way */
+    framed_array worth;       /* what that pixel passes on, if nothing is in the way */
+} sight_list;
+
+/* Rays that are traced together. */
 typedef struct shadow_list {
     uint32_t n;
     LINE_ALIGNED ray_array ray;
@@ -141,12 +158,6 @@ enum { GRADIENT_STEPS = 12 };
 #define LEAST_EIGENVALUE 0.1f
 #define MOST_EIGENVALUE 2.0f
 
-/* Numbers of pixels, with so much room before and after them that every pixel has four neighbours. */
-enum { MARGIN = TILE_SIZE, FRAMED = PATHS + 2*MARGIN };
-typedef struct framed_array {
-    float x[FRAMED], y[FRAMED], z[FRAMED];
-} framed_array;
-
 /* What neighbouring pixels tell each other (stage_gradients.c), by slot if nothing else is said, which is the place of
  * the first vertex, too.  Framed arrays begin at MARGIN, but `up` at 0. */
 typedef struct gradient_list {
@@ -166,9 +177,10 @@ typedef struct gradient_list {
     framed_array normal, shading;  /* ... its normals, on wo's side */
     float density[FRAMED];         /* of finding it from the first [1/m^2]; 0: nothing is shared */
     framed_array own, seen;        /* the light that is shared, and what the neighbour would see of it */
-    uint32_t is_beside[ROOM];      /* whether there is a pixel a step before */
     /* By second vertices: directions to the light and onwards, f cos for them and the path's own wo */
-    vector_array to_light, onward, near_f, far_f, near_ratio;
+    vector_array to_light, onward, near_f, far_f;
+    vector_array near_light, far_light; /* the paths' light: of lights there, and the rest */
+    vector_array own_light, seen_light; /* of it, as own and seen */
     /* Towards the second vertex of the pixel a step before */
     float distance2[ROOM], cosine[ROOM]; /* at that vertex */
     /* The equations */
@@ -186,7 +198,8 @@ struct path_batch {
     uint32_t chance[3][ROOM];
     uint32_t material[ROOM], order[ROOM]; /* of what the paths met; the paths by it */
     sky_list skies;
-    vertex_list vertex_lists[3]; /* of the first event, the second, and later ones */
+    vertex_list vertex_lists[3];   /* of the first event, the second, and later ones */
+    sight_list sights[NEIGHBOURS]; /* the first one for the vertices' own lights, before */
     shadow_list shadows;
     gradient_list gradients;
     plain_block plain; /* vertices whose surfaces are still to be found */
@@ -275,9 +288,23 @@ static inline void pack_vectors(packed_array **end, const vector_array *from, ve
     pack_array(end, from->z, to->z);
 }
 
+static inline void pack_framed(packed_array **end, const framed_array *from, vector_array *to)
+{
+    pack_array(end, from->x, to->x);
+    pack_array(end, from->y, to->y);
+    pack_array(end, from->z, to->z);
+}
+
 static inline void add_radiance(path_batch *batch, uint32_t slot, real3 radiance)
 {
     set3(&batch->radiance, slot, add3(get3(&batch->radiance, slot), radiance));
+}
+
+/* Whether the film can hold it. */
+static inline int is_held(real3 light)
+{
+    const real3 size = make3(kabs(light.x), kabs(light.y), kabs(light.z));
+    return (size.x <= FILM_MOST) & (size.y <= FILM_MOST) & (size.z <= FILM_MOST);
 }
 
 /* The power heuristic for the technique with density a against the other with density b. */
@@ -310,8 +337,12 @@ void vertices_evaluate(vertex_list *v);
 /* Draws the points on the vertices' lights, which have been chosen, by the numbers u, and turns wi there. */
 void vertices_aim(vertex_list *v, const path_context *c);
 
-/* What comes from there, in f, if nothing is in the way, and whether nothing is, in keeps; is_mis: weighted. */
-void vertices_connect(path_batch *batch, vertex_list *v, const path_context *c, bool is_mis, path_counts *counts);
+/* Rays to there, and in f what comes from there, if nothing is in the way; is_mis: weighted. */
+void vertices_connect(vertex_list *v, bool is_mis, sight_list *to);
+
+/* Finds what is in the way of n rays of each of the first so many lists.  Those towards what one pixel has found are
+ * traced close to each other, while the tree's nodes on their way are in the cache. */
+void sights_trace(path_batch *batch, const path_context *c, uint32_t n_lists, uint32_t n, path_counts *counts);
 
 /* ---- Gradients: light that neighbouring pixels share by their second vertices, if context.has_gradients says so.
  * Between stage_generate and the film: ---- */

@@ -13,7 +13,7 @@
 #include "render/stages.h"
 #include "tests/draws.h"
 
-enum { N_ARRAYS = 3 };
+enum { N_ARRAYS = 6 };
 
 static void what_is_kept_is_packed_in_order(void **state)
 {
@@ -23,6 +23,7 @@ static void what_is_kept_is_packed_in_order(void **state)
     for (int round = 0; round < 300; round++) {
         const uint32_t n = round < 20 ? (uint32_t)round : (uint32_t)(draw_bits(&d)%(PATHS + 1));
         const double share = draw_between(&d, -.2, 1.2); /* all and none as well */
+        const int n_arrays = 1 + round%N_ARRAYS;
         for (uint32_t i = 0; i < ROOM; i++) keeps[i] = draw_between(&d, 0, 1) < share;
         for (int k = 0; k < N_ARRAYS; k++)
             for (uint32_t i = 0; i < ROOM; i++) from[k][i] = (uint32_t)draw_bits(&d);
@@ -30,14 +31,54 @@ static void what_is_kept_is_packed_in_order(void **state)
             facet_isa_force(facet_isa_name(set));
             packed_array arrays[N_ARRAYS];
             for (int k = 0; k < N_ARRAYS; k++) arrays[k] = (packed_array){from[k], to[k]};
-            const uint32_t n_kept = render_loops_chosen()->pack(n, keeps, N_ARRAYS, arrays);
+            const uint32_t n_kept = render_loops_chosen()->pack(n, NULL, keeps, (size_t)n_arrays, arrays);
             uint32_t expected = 0;
             for (uint32_t i = 0; i < n; i++) {
                 if (!keeps[i]) continue;
-                for (int k = 0; k < N_ARRAYS; k++) assert_int_equal(to[k][expected], from[k][i]);
+                for (int k = 0; k < n_arrays; k++) assert_int_equal(to[k][expected], from[k][i]);
                 expected++;
             }
             assert_int_equal(n_kept, expected);
+        }
+    }
+    facet_isa_force(NULL);
+}
+
+/* As rays are packed that several lists hold, and what is in the way of them told to the lists. */
+static void what_lies_apart_is_packed_and_unpacked(void **state)
+{
+    (void)state;
+    enum { N_LISTS = 4, LONG = N_LISTS*ROOM };
+    draws d = {4};
+    static uint32_t keeps[LONG], kept[LONG], from[LONG], to[ROOM];
+    for (int round = 0; round < 300; round++) {
+        uint32_t starts[PATHS/PACKED];
+        const uint32_t n = PACKED*(uint32_t)(draw_bits(&d)%(PATHS/PACKED + 1));
+        const double share = draw_between(&d, -.2, 1.2);
+        for (uint32_t i = 0; i < LONG; i++) {
+            keeps[i] = draw_between(&d, 0, 1) < share;
+            from[i] = (uint32_t)draw_bits(&d) & 1;
+        }
+        uint32_t begin[N_LISTS];
+        for (uint32_t i = 0; i < N_LISTS; i++) begin[i] = i*ROOM + (uint32_t)(draw_bits(&d)%100);
+        for (uint32_t i = 0; i < n/PACKED; i++) starts[i] = begin[i%N_LISTS] + PACKED*(i/N_LISTS);
+        for (size_t set = 0; facet_isa_name(set); set++) {
+            facet_isa_force(facet_isa_name(set));
+            const packed_array array = {from, to};
+            const uint32_t n_kept = render_loops_chosen()->pack(n, starts, keeps, 1, &array);
+            memcpy(kept, keeps, sizeof kept);
+            uint32_t j = 0;
+            for (uint32_t i = 0; i < n; i++) {
+                const uint32_t k = starts[i/PACKED] + i%PACKED;
+                if (!keeps[k]) continue;
+                assert_int_equal(to[j++], from[k]);
+                kept[k] = from[k];
+            }
+            assert_int_equal(n_kept, j);
+            static uint32_t unpacked[LONG];
+            memcpy(unpacked, keeps, sizeof unpacked);
+            render_loops_chosen()->unpack(n, starts, to, unpacked);
+            assert_memory_equal(unpacked, kept, sizeof kept);
         }
     }
     facet_isa_force(NULL);
@@ -128,6 +169,7 @@ int main(void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(what_is_kept_is_packed_in_order),
+        cmocka_unit_test(what_lies_apart_is_packed_and_unpacked),
         cmocka_unit_test(points_on_few_triangles_are_those_on_any),
         cmocka_unit_test(the_third_dimension_has_its_primitive_polynomial),
     };
