@@ -4,10 +4,10 @@
  *     renders --export FOLDER     # only writes 70k.glb and 2M.glb there, for other renderers (bench/peers)
  *
  * For each scene of bench/parts/bench_scenes.h, at 512 x 512 and depth 8:
- * - paths and rays per second of CPU time, on one thread and on two in turn, medians of five runs;
- * - the limit: every ray of a one-thread run with one sample per pixel is recorded and traced again alone, in the same
- *   groups.  Its time per ray, times the rays of the run, is the share of the run that is spent inside the tracer; the
- *   run's time over it is how far the renderer is from one that only traces;
+ * - paths and rays per second of CPU time, on one thread and on two in turn, medians of seven runs;
+ * - the limit: every ray of a one-thread run with one sample per pixel is recorded and, after each of the runs, traced
+ *   again alone, in the same groups.  Its time per ray, times the rays of the run, is the share of the run that is
+ *   spent inside the tracer; the run's time over it is how far the renderer is from one that only traces;
  * - RMSE of 64 samples per pixel against a long render with another seed, raw and with values clipped to 1, without
  *   the part that is the long render's own; and CPU time to a clipped RMSE of 0.02 by the 1/sqrt(N) law;
  * - a Z-test: means of 16 x 16 pixels, by --strategy mis, the default sampler and shared light against independent
@@ -27,7 +27,7 @@
 #include "render/render.h"
 #include "render/surface.h"
 
-enum { SIZE = 512, RUNS = 5, BLOCK_SIZE = 16, BLOCKS = SIZE/BLOCK_SIZE, SEEDS = 4 };
+enum { SIZE = 512, RUNS = 7, BLOCK_SIZE = 16, BLOCKS = SIZE/BLOCK_SIZE, SEEDS = 4 };
 
 typedef struct effort {
     uint32_t rate_spp, error_spp, reference_spp, z_spp;
@@ -83,14 +83,6 @@ typedef struct rates {
 
 static rates measure_rates(const scene *s, uint32_t spp)
 {
-    double cpu[RUNS], ratios[RUNS];
-    render_result one = {.n_paths = 0};
-    for (int i = 0; i < RUNS; i++) { /* one and two threads in turn, so that a slow spell meets both */
-        one = run_blind(s, spp, 1);
-        cpu[i] = one.cpu_seconds;
-        ratios[i] = one.seconds/run_blind(s, spp, 2).seconds;
-    }
-    const double seconds = median(cpu, RUNS);
     recorder_start();
     run_blind(s, 1, 1);
     recorder_stop();
@@ -98,23 +90,28 @@ static rates measure_rates(const scene *s, uint32_t spp)
     facet_error why = {.text = ""};
     check(tracer_create(s, NULL, 1, surface_opacity, s, &alone, &why), why.text);
     tracer_prepare_thread();
-    double closest[RUNS], shadow[RUNS];
-    for (int i = 0; i < RUNS; i++) {
+    double cpu[RUNS], scaling[RUNS], closest[RUNS], shadow[RUNS], share[RUNS];
+    render_result one = {.n_paths = 0};
+    for (int i = 0; i < RUNS; i++) { /* all in turn, so that a slow spell meets all */
+        one = run_blind(s, spp, 1);
         closest[i] = recorder_replay(alone, &recorded_closest);
         shadow[i] = recorder_replay(alone, &recorded_shadow);
+        cpu[i] = one.cpu_seconds;
+        share[i] = 1e-9*(closest[i]*(double)one.n_rays + shadow[i]*(double)one.n_shadow_rays)/cpu[i];
+        scaling[i] = one.seconds/run_blind(s, spp, 2).seconds;
     }
     tracer_destroy(alone);
     recorder_destroy();
-    const double closest_ns = median(closest, RUNS), shadow_ns = median(shadow, RUNS);
     const double n_rays = (double)one.n_rays, n_shadow = (double)one.n_shadow_rays, n_paths = (double)one.n_paths;
+    const double seconds = median(cpu, RUNS), shadow_ns = median(shadow, RUNS);
     return (rates){.paths = n_paths/seconds,
                    .rays = (n_rays + n_shadow)/seconds,
                    .closest_per_path = n_rays/n_paths,
                    .shadow_per_path = n_shadow/n_paths,
-                   .closest_alone = 1e9/closest_ns,
+                   .closest_alone = 1e9/median(closest, RUNS),
                    .shadow_alone = shadow_ns > 0 ? 1e9/shadow_ns : 0,
-                   .share = 1e-9*(closest_ns*n_rays + shadow_ns*n_shadow)/seconds,
-                   .scaling = median(ratios, RUNS),
+                   .share = median(share, RUNS),
+                   .scaling = median(scaling, RUNS),
                    .isa = one.isa};
 }
 
